@@ -1,0 +1,83 @@
+#include "apps/emit_command.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "apps/order_kernels.hpp"
+#include "emit/cpp.hpp"
+#include "output_file.hpp"
+#include "user_error.hpp"
+
+namespace zonal {
+
+namespace {
+
+struct Language {
+    std::function<std::string(const emit::Unit&)> print;
+    std::function<std::string(int order)> file_name;  ///< relative to the output folder
+};
+
+/// Adding a language is one line here.
+const std::map<std::string, Language>& languages() {
+    static const std::map<std::string, Language> all{
+        {"cpp", {emit::print_cpp, [](int order) { return fmt::format("zonal/order{:02}.hpp", order); }}},
+    };
+    return all;
+}
+
+struct Options {
+    int order = 0;
+    std::string language;
+    std::string table;
+    std::string out;
+};
+
+const Language& find_language(const std::string& name) {
+    const auto found = languages().find(name);
+    if (found != languages().end()) return found->second;
+    std::string known;
+    for (const auto& [key, language] : languages()) known += (known.empty() ? "" : ", ") + key;
+    throw UserError(fmt::format("--language: found '{}', wanted one of: {}", name, known));
+}
+
+emit::Unit make_unit(const Options& options, const OrderKernels& order) {
+    emit::Unit unit;
+    unit.name = fmt::format("order{}", options.order);
+    unit.command = fmt::format("zonal-gen emit --order {} --language {}{} --out generated/{}", options.order,
+                               options.language, options.table.empty() ? "" : " --table " + order.table_name,
+                               options.language);
+    unit.table = fmt::format("{}  sha256:{}", order.table_name, order.table.sha256.substr(0, kHashDigits));
+    unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
+    unit.domain = "for det R = +1 or -1";
+    unit.sources = {"Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11"};
+    unit.kernels = order.kernels;
+    unit.bounds = order.bounds;
+    unit.forwards = {{"rotate", "rotate_zhf", "The cheapest exact rotation of one vector that this order has: rotate_zhf."}};
+    return unit;
+}
+
+void run(const Options& options) {
+    const Language& language = find_language(options.language);
+    const OrderKernels order = build_order_kernels(options.order, options.table);
+    const std::filesystem::path folder = options.out.empty() ? "generated/" + options.language : options.out;
+    const std::filesystem::path path = folder / language.file_name(options.order);
+    write_file_atomically(path, language.print(make_unit(options, order)));
+    fmt::print("{}\n", path.string());
+}
+
+}  // namespace
+
+void add_emit_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
+    const auto options = std::make_shared<Options>();
+    command->add_option("--order", options->order, "number of bands")->required();
+    command->add_option("--language", options->language, "cpp")->required();
+    command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");
+    command->add_option("--out", options->out, "folder to write into (default: generated/LANGUAGE)");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace zonal

@@ -1,0 +1,220 @@
+#include "apps/search_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "exact/angles.hpp"
+#include "lobe_table.hpp"
+#include "output_file.hpp"
+#include "search/progress_text.hpp"
+#include "search/search.hpp"
+#include "user_error.hpp"
+
+namespace zonal {
+namespace {
+
+constexpr int kSmallestOrder = 2, kLargestOrder = 20;
+constexpr double kSecondsBetweenSaves = 5;
+
+/// Set by Ctrl-C: the search ends after its generation and the best is kept.
+std::atomic<bool> stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
+
+/// Catches Ctrl-C while it lives.
+class InterruptGuard {
+  public:
+    InterruptGuard() : previous_(std::signal(SIGINT, [](int) { stop_requested = true; })) {}
+    ~InterruptGuard() { std::signal(SIGINT, previous_); }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  private:
+    void (*previous_)(int);
+};
+
+/// As the person typed them; zero means "by the method".
+struct Options {
+    int order = 0;
+    std::uint64_t seed = 1;
+    int generations = 0;
+    double seconds = 0;
+    std::string out;
+    std::string resume;
+    bool is_plain = false;
+    bool stays_on_grid = false;
+    int islands = 4;
+    int population = 0;
+    int stall = 0;
+    int elite = 2;
+    int moves = 0;
+    double crossover = 0.8;
+    double mutation = 0;
+    search::Objective objective;
+};
+
+/// The table that `--resume` names, as lobes to start from.
+search::AngledSet read_start(const Options& options) {
+    search::AngledSet lobes;
+    for (const auto& [theta, phi] : read_lobe_table(options.resume, options.order).angles) {
+        lobes.push_back({{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
+    }
+    return lobes;
+}
+
+search::SearchSettings settings_of(const Options& options, const search::Problem& problem) {
+    search::SearchSettings settings;
+    settings.seed = options.seed;
+    settings.generations = options.generations;
+    settings.seconds = options.seconds;
+    settings.islands = options.islands;
+    settings.leaves_grid = !options.stays_on_grid && !options.is_plain;
+    settings.objective = options.objective;
+    search::Genetic& genetic = settings.genetic;
+    genetic = options.is_plain ? search::Genetic::of_paper() : search::Genetic::with_local_steps(problem);
+    if (options.population > 0) genetic.population = options.population;
+    if (options.stall > 0) genetic.stall_generations = options.stall;
+    if (options.moves > 0) genetic.local_step.moves = options.moves;
+    genetic.elite = options.elite;
+    genetic.crossover_fraction = options.crossover;
+    genetic.mutation_rate = options.mutation;
+    if (!options.resume.empty()) settings.start = read_start(options);
+    return settings;
+}
+
+/// The command that repeats a search of so many generations, with every option that is not the default. Paths
+/// are those of the repository, whatever was typed.
+std::string canonical_command(const Options& options, int generations) {
+    const Options standard;
+    std::string command = fmt::format("zonal-gen search --order {} --seed {} --generations {}", options.order,
+                                      options.seed, generations);
+    const auto add = [&](const char* name, const auto& value, const auto& default_value) {
+        if (value != default_value) command += fmt::format(" {} {}", name, value);
+    };
+    const std::string table = fmt::format("generator/tables/{}", lobe_table_name(options.order).string());
+    if (options.is_plain) command += " --plain";
+    if (options.stays_on_grid) command += " --on-grid";
+    if (!options.resume.empty()) command += " --resume " + table;
+    add("--islands", options.islands, standard.islands);
+    add("--population", options.population, standard.population);
+    add("--stall", options.stall, standard.stall);
+    add("--elite", options.elite, standard.elite);
+    add("--local-moves", options.moves, standard.moves);
+    add("--crossover", options.crossover, standard.crossover);
+    add("--mutation", options.mutation, standard.mutation);
+    add("--multiplication-weight", options.objective.multiplication_weight,
+        standard.objective.multiplication_weight);
+    add("--condition-weight", options.objective.condition_weight, standard.objective.condition_weight);
+    add("--condition-cap", options.objective.condition_cap, standard.objective.condition_cap);
+    return command + " --out " + table;
+}
+
+LobeTable table_of(const Options& options, const search::Solution& solution, int generations) {
+    LobeTable table;
+    table.order = options.order;
+    table.seed = options.seed;
+    table.command = canonical_command(options, generations);
+    const search::AngledSet lobes = search::in_reading_order(solution.lobes);
+    table.directions = search::directions_of(lobes);
+    for (const search::AngledLobe& lobe : lobes) {
+        table.angles.push_back({lobe.theta.text, lobe.phi.text});
+    }
+    measure_lobe_table(table);
+    return table;
+}
+
+void check_order(int order) {
+    if (order >= kSmallestOrder && order <= kLargestOrder) return;
+    throw UserError(fmt::format("--order: found {}, wanted {} to {}{}", order, kSmallestOrder, kLargestOrder,
+                                order == 1 ? "; order 1 is a constant and has no lobes to seek" : ""));
+}
+
+/// Fails before a long search, not after it.
+void check_is_writable(const std::filesystem::path& path) {
+    const std::filesystem::path probe = path.string() + ".probe";
+    write_file_atomically(probe, "");
+    std::filesystem::remove(probe);
+}
+
+void run(const Options& options) {
+    check_order(options.order);
+    check_is_writable(options.out);
+    const search::Problem problem = search::Problem::shared(options.order);
+    const search::SearchSettings settings = settings_of(options, problem);
+
+    const bool is_watched = isatty(STDERR_FILENO) != 0;
+    double saved_at = -kSecondsBetweenSaves;
+    search::SearchObserver observer;
+    observer.on_generation = [&](const search::Progress& progress) {
+        if (is_watched) fmt::print(stderr, "\r\033[K{}", search::progress_text(progress));
+    };
+    observer.on_better = [&](const search::Solution& solution, const search::Progress& progress) {
+        const bool is_worth_saving = solution.score.is_allowed(options.objective);
+        if (!is_worth_saving || progress.seconds < saved_at + kSecondsBetweenSaves) return;
+        write_lobe_table(options.out, table_of(options, solution, progress.generation));
+        saved_at = progress.seconds;
+    };
+
+    const InterruptGuard guard;
+    const search::SearchResult result = search::search_lobes(problem, settings, stop_requested, observer);
+    fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
+    if (!result.best.score.is_allowed(options.objective)) {
+        throw UserError(fmt::format(
+            "--order {}: found no lobes of condition {:g} or less in {} generations; "
+            "raise --generations, change --seed, or drop --plain",
+            options.order, options.objective.condition_cap, result.progress.generation));
+    }
+    write_lobe_table(options.out, table_of(options, result.best, result.progress.generation));
+    fmt::print("{}\n", options.out);
+}
+
+}  // namespace
+
+void add_search_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("search", "seek lobe directions for an order and save them as a table");
+    const auto options = std::make_shared<Options>();
+    Options& o = *options;
+    command->add_option("--order", o.order, "number of bands, 2 to 20")->required();
+    command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")->required();
+    command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
+    command->add_option("--generations", o.generations, "to run (default: until none improves for --stall)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--seconds", o.seconds, "to stop earlier")->check(CLI::PositiveNumber);
+    command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
+    command->add_flag("--plain", o.is_plain, "the paper's genetic algorithm, with no local steps, on the grid");
+    command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
+    command->add_option("--islands", o.islands, "populations that breed apart")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--population", o.population, "of an island (default: 60, or 500 with --plain)")
+        ->check(CLI::Range(4, 1000000));
+    command->add_option("--stall", o.stall, "generations without improvement (default: 10, or 50 with --plain)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--elite", o.elite, "individuals that survive")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 4));
+    command->add_option("--local-moves", o.moves, "swaps tried on every child (default: 25 (2N-1)^2)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--crossover", o.crossover, "fraction of children with two parents")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--mutation", o.mutation, "rate of an angle (default: one over the number of angles)")
+        ->check(CLI::Range(0.0, 1.0));
+    command->add_option("--multiplication-weight", o.objective.multiplication_weight,
+                        "of a multiplication beside a nonzero")
+        ->capture_default_str();
+    command->add_option("--condition-weight", o.objective.condition_weight,
+                        "of a doubling of the worst condition beside a nonzero")
+        ->capture_default_str();
+    command->add_option("--condition-cap", o.objective.condition_cap, "largest condition of a band, at most 50")
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, kConditionCap));
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace zonal

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "emit/unit.hpp"
+
+namespace zonal::emit {
+
+/// The banner every generated file opens with, one line an entry, without comment signs: the fixed keys
+/// command, table, basis, cost, bound, source in that order.
+std::vector<std::string> banner_lines(const Unit& unit);
+
+/// A constant as a decimal of at most 17 digits that reads back as the double nearest to it.
+std::string literal(const graph::Number& value);
+
+/// A unique identifier for every computed or named node: its own name, or its scope and a number.
+std::map<graph::Id, std::string> node_names(const graph::Kernel& kernel);
+
+}  // namespace zonal::emit

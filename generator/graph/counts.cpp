@@ -1,0 +1,23 @@
+#include "graph/counts.hpp"
+
+namespace zonal::graph {
+
+Cost count_operations(const Kernel& kernel) {
+    Cost cost;
+    for (Id id = 0; id < kernel.graph.size(); ++id) {
+        const Node& node = kernel.graph[id];
+        Counts& counts = node.kind == Kind::signal ? cost.per_vector : cost.per_rotation;
+        switch (node.op) {
+            case Op::multiply: ++counts.mul; break;
+            case Op::add:
+            case Op::subtract: ++counts.add; break;
+            case Op::fused: ++counts.fma; break;
+            case Op::constant:
+            case Op::input:
+            case Op::negate: break;
+        }
+    }
+    return cost;
+}
+
+}  // namespace zonal::graph

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace zonal::graph {
+
+/// Constants stay at 50 digits until a printer rounds them once.
+using Number = boost::multiprecision::cpp_bin_float_50;
+
+/// What a value depends on. A *rotation scalar* depends on the rotation only and is paid once per rotation; a
+/// *signal value* is linear in the input vector and is paid once per vector.
+enum class Kind { constant, rotation, signal };
+
+/// `fused` is (±a) * b ± c, rounded once where the target can.
+enum class Op { constant, input, negate, add, subtract, multiply, fused };
+
+/// Names a node of one graph; smaller ids were made earlier, so ids are a topological order.
+using Id = int;
+
+struct Node {
+    Op op = Op::constant;
+    Kind kind = Kind::constant;
+    std::vector<Id> operands;     ///< add, subtract: 2; multiply: 2, the scalar first; fused: a, b, c; negate: 1
+    bool negated_product = false;  ///< fused only
+    bool negated_addend = false;   ///< fused only
+    Number value = 0;              ///< constant only
+    int array = 0;                 ///< input only: which of the kernel's inputs
+    int index = 0;                 ///< input only: which element of it
+    std::string name;              ///< what the value means, for printers; empty: the scope and a number
+    std::string scope;             ///< the part of the kernel that made it, such as "b3_d2"
+};
+
+/// An expression graph that knows no language and no spherical harmonics. Building it folds constants, shares
+/// equal expressions (one node an expression, whatever the order of operands) and moves signs outwards, so that
+/// a*b and -a*b share their product. A signal value is only ever added to another or multiplied by a constant
+/// or a rotation scalar; anything else throws std::logic_error. So every kernel is linear by construction.
+class Graph {
+  public:
+    Id constant(const Number& value);
+    Id input(Kind kind, int array, int index);
+    Id add(Id a, Id b);
+    Id subtract(Id a, Id b);
+    Id multiply(Id a, Id b);
+    Id negate(Id a);
+    /// (±a) * b ± c. For passes; builders write products and sums.
+    Id fused(Id a, Id b, Id c, bool negated_product, bool negated_addend);
+    /// The product with a signed constant kept as it is. For passes.
+    Id signed_multiply(Id a, Id b);
+
+    const Node& operator[](Id id) const { return nodes_[id]; }
+    int size() const { return static_cast<int>(nodes_.size()); }
+
+    /// Values made from here on belong to this part of the kernel.
+    void set_scope(std::string scope) { scope_ = std::move(scope); }
+    /// Gives a value its meaning; the first name stays.
+    void set_name(Id id, const std::string& name);
+    /// Copies name and scope of another graph's node, for passes that rebuild a graph.
+    void copy_labels(Id id, const Node& from);
+
+  private:
+    using Key = std::tuple<Op, std::vector<Id>, bool, bool, std::string, int, int>;
+    Id intern(Node node);
+
+    std::vector<Node> nodes_;
+    std::map<Key, Id> known_;
+    std::string scope_;
+};
+
+/// A handle that lets builders write formulas: `x * x - y * y`.
+struct Value {
+    Graph* graph = nullptr;
+    Id id = -1;
+};
+inline Value operator+(Value a, Value b) { return {a.graph, a.graph->add(a.id, b.id)}; }
+inline Value operator-(Value a, Value b) { return {a.graph, a.graph->subtract(a.id, b.id)}; }
+inline Value operator*(Value a, Value b) { return {a.graph, a.graph->multiply(a.id, b.id)}; }
+inline Value operator-(Value a) { return {a.graph, a.graph->negate(a.id)}; }
+inline Value operator*(const Number& a, Value b) { return {b.graph, b.graph->multiply(b.graph->constant(a), b.id)}; }
+inline Value operator+(Value a, const Number& b) { return {a.graph, a.graph->add(a.id, a.graph->constant(b))}; }
+
+}  // namespace zonal::graph

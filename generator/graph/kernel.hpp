@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "graph/graph.hpp"
+
+namespace zonal::graph {
+
+/// An argument of a kernel.
+struct Array {
+    std::string name;
+    Kind kind = Kind::signal;
+    int size = 0;
+    std::string comment;  ///< what it holds: layout and units
+};
+
+/// One element of the output. Stores of a group happen together, after all reads of that group: a kernel may
+/// write over its input as long as no later group reads what an earlier one wrote.
+struct Store {
+    int index = 0;
+    Id value = -1;
+    int group = 0;
+};
+
+/// One function to emit: its graph, its arguments and what its comment says.
+struct Kernel {
+    std::string name;
+    std::string summary;  ///< what it computes, one or two lines
+    std::string source;   ///< author, year, equation
+    std::vector<Array> inputs;
+    Array output;
+    Graph graph;
+    std::vector<Store> stores;
+    /// What is added to the published error bound, by the rotation's own fault; empty: no bound is published.
+    std::string bound_excess;
+
+    Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
+    void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }
+};
+
+}  // namespace zonal::graph

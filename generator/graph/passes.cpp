@@ -1,0 +1,132 @@
+#include "graph/passes.hpp"
+
+#include <algorithm>
+
+namespace zonal::graph {
+
+namespace {
+
+std::vector<std::vector<Id>> users_of(const Graph& graph) {
+    std::vector<std::vector<Id>> users(graph.size());
+    for (Id id = 0; id < graph.size(); ++id)
+        for (const Id operand : graph[id].operands) users[operand].push_back(id);
+    return users;
+}
+
+/// The same kernel with an empty graph, to be filled by a pass.
+Kernel without_graph(const Kernel& kernel) {
+    Kernel copy = kernel;
+    copy.graph = Graph{};
+    return copy;
+}
+
+/// Makes the same node again over new operands.
+Id rebuild(Graph& graph, const Node& node, const std::vector<Id>& moved) {
+    const auto operand = [&](int k) { return moved[node.operands[k]]; };
+    Id id = -1;
+    switch (node.op) {
+        case Op::constant: id = graph.constant(node.value); break;
+        case Op::input: id = graph.input(node.kind, node.array, node.index); break;
+        case Op::negate: id = graph.negate(operand(0)); break;
+        case Op::add: id = graph.add(operand(0), operand(1)); break;
+        case Op::subtract: id = graph.subtract(operand(0), operand(1)); break;
+        case Op::multiply: id = graph.signed_multiply(operand(0), operand(1)); break;
+        case Op::fused:
+            id = graph.fused(operand(0), operand(1), operand(2), node.negated_product, node.negated_addend);
+            break;
+    }
+    graph.copy_labels(id, node);
+    return id;
+}
+
+}  // namespace
+
+Kernel form_fused(const Kernel& kernel) {
+    const Graph& old = kernel.graph;
+    const auto users = users_of(old);
+    std::vector<bool> is_output(old.size(), false);
+    for (const Store& store : kernel.stores) is_output[store.value] = true;
+
+    // fused_operand[sum]: which of its two operands becomes the product of the fused instruction, or -1.
+    std::vector<int> fused_operand(old.size(), -1);
+    const auto operand_position = [&](Id sum, Id product) { return old[sum].operands[0] == product ? 0 : 1; };
+    const auto try_fuse = [&](Id product) {
+        const auto& uses = users[product];
+        const bool can_go = !is_output[product] && !uses.empty() &&
+                            std::all_of(uses.begin(), uses.end(), [&](Id use) {
+                                const Op op = old[use].op;
+                                return (op == Op::add || op == Op::subtract) && fused_operand[use] < 0 &&
+                                       old[use].operands[0] != old[use].operands[1];
+                            });
+        if (!can_go) return;
+        for (const Id use : uses) fused_operand[use] = operand_position(use, product);
+    };
+    // Products with one use first: fusing them never costs another product its chance to be shared.
+    for (const bool is_single : {true, false})
+        for (Id id = 0; id < old.size(); ++id)
+            if (old[id].op == Op::multiply && (users[id].size() == 1) == is_single) try_fuse(id);
+
+    Kernel result = without_graph(kernel);
+    std::vector<Id> moved(old.size(), -1);
+    for (Id id = 0; id < old.size(); ++id) {
+        const Node& node = old[id];
+        if (fused_operand[id] < 0) {
+            moved[id] = rebuild(result.graph, node, moved);
+            continue;
+        }
+        const int position = fused_operand[id];
+        const Node& product = old[node.operands[position]];
+        const Id addend = moved[node.operands[1 - position]];
+        const bool is_difference = node.op == Op::subtract;
+        moved[id] = result.graph.fused(moved[product.operands[0]], moved[product.operands[1]], addend,
+                                       is_difference && position == 1, is_difference && position == 0);
+        result.graph.copy_labels(moved[id], node);
+    }
+    for (Store& store : result.stores) store.value = moved[store.value];
+    return result;
+}
+
+Kernel absorb_negations(const Kernel& kernel) {
+    Kernel result = kernel;
+    Graph& graph = result.graph;
+    const auto users = users_of(kernel.graph);
+    for (Store& store : result.stores) {
+        const Node negation = graph[store.value];
+        if (negation.op != Op::negate || users[negation.operands[0]].size() > 1) continue;
+        const Node inner = graph[negation.operands[0]];
+        Id id = -1;
+        if (inner.op == Op::multiply && graph[inner.operands[0]].op == Op::constant) {
+            id = graph.signed_multiply(graph.constant(-graph[inner.operands[0]].value), inner.operands[1]);
+        } else if (inner.op == Op::fused) {
+            id = graph.fused(inner.operands[0], inner.operands[1], inner.operands[2], !inner.negated_product,
+                             !inner.negated_addend);
+        }
+        if (id < 0) continue;
+        graph.set_name(id, inner.name);
+        store.value = id;
+    }
+    return result;
+}
+
+Kernel remove_dead(const Kernel& kernel) {
+    const Graph& old = kernel.graph;
+    std::vector<bool> is_needed(old.size(), false);
+    for (const Store& store : kernel.stores) is_needed[store.value] = true;
+    for (Id id = old.size() - 1; id >= 0; --id)
+        if (is_needed[id])
+            for (const Id operand : old[id].operands) is_needed[operand] = true;
+
+    Kernel result = without_graph(kernel);
+    std::vector<Id> moved(old.size(), -1);
+    for (Id id = 0; id < old.size(); ++id)
+        if (is_needed[id]) moved[id] = rebuild(result.graph, old[id], moved);
+    for (Store& store : result.stores) store.value = moved[store.value];
+    return result;
+}
+
+Kernel optimize(const Kernel& kernel) {
+    // Dead users would keep products from being fused, so they go first.
+    return remove_dead(absorb_negations(form_fused(remove_dead(kernel))));
+}
+
+}  // namespace zonal::graph

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "graph/kernel.hpp"
+
+namespace zonal::graph {
+
+/// Turns a + x*y into one fused instruction wherever that removes the product: a product all of whose uses are
+/// sums is fused into each of them; a product that something else needs stays and is added.
+Kernel form_fused(const Kernel& kernel);
+
+/// Moves a minus sign in front of an output into the instruction that makes it, where that costs nothing.
+Kernel absorb_negations(const Kernel& kernel);
+
+/// Drops what no output needs. Order, names and scopes stay.
+Kernel remove_dead(const Kernel& kernel);
+
+/// All of the above, in the order that every kernel is emitted with. (Folding of constants and sharing of
+/// equal expressions happen while a graph is built.)
+Kernel optimize(const Kernel& kernel);
+
+}  // namespace zonal::graph

@@ -1,0 +1,69 @@
+#include "graph/sum.hpp"
+
+#include <algorithm>
+
+namespace zonal::graph {
+
+namespace {
+
+/// Factors that agree to this relative difference are one constant; they carry 50 digits less the condition.
+const Number kSameConstant{"1e-35"};
+
+bool is_same_size(const Number& a, const Number& b) {
+    return abs(abs(a) - abs(b)) <= kSameConstant * abs(a);
+}
+
+struct Group {
+    Number size;              // |factor|, exactly 1 where it is ±1
+    std::vector<Term> terms;  // factor: the sign
+};
+
+std::vector<Group> group_by_size(const std::vector<Term>& terms) {
+    std::vector<Group> groups;
+    for (const Term& term : terms) {
+        if (term.factor == 0) continue;
+        const Term signed_term{term.factor < 0 ? Number(-1) : Number(1), term.value};
+        const auto group = std::find_if(groups.begin(), groups.end(),
+                                        [&](const Group& g) { return is_same_size(g.size, term.factor); });
+        if (group != groups.end()) {
+            group->terms.push_back(signed_term);
+        } else {
+            const bool is_one = is_same_size(Number(1), term.factor);
+            groups.push_back({is_one ? Number(1) : Number(abs(term.factor)), {signed_term}});
+        }
+    }
+    return groups;
+}
+
+}  // namespace
+
+Value linear_combination(Graph& graph, const std::vector<Term>& terms) {
+    // Groups of ±1 come first: they start the chain, and every other group can then be fused into it.
+    std::vector<Group> groups = group_by_size(terms);
+    std::stable_partition(groups.begin(), groups.end(), [](const Group& g) { return g.size == 1; });
+    Value sum{&graph, graph.constant(0)};
+    for (const Group& group : groups) {
+        if (group.size == 1) {
+            for (const Term& term : group.terms) sum = sum + term.factor * term.value;
+            continue;
+        }
+        // The sign of the first term is the group's, so that a sum and its negative share one node.
+        Value inner{&graph, graph.constant(0)};
+        const Number sign = group.terms.front().factor;
+        for (const Term& term : group.terms) inner = inner + (sign * term.factor) * term.value;
+        sum = sum + (sign * group.size) * inner;
+    }
+    return sum;
+}
+
+int multiplications(const std::vector<Number>& factors) {
+    std::vector<Number> sizes;
+    for (const Number& factor : factors) {
+        if (factor == 0 || is_same_size(Number(1), factor)) continue;
+        if (std::none_of(sizes.begin(), sizes.end(), [&](const Number& s) { return is_same_size(s, factor); }))
+            sizes.push_back(factor);
+    }
+    return static_cast<int>(sizes.size());
+}
+
+}  // namespace zonal::graph

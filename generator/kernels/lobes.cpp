@@ -1,0 +1,284 @@
+// Rotation by sparse zonal-harmonic factorization: the kernels that need a lobe table.
+//
+// Band l of a signal is a sum of 2l+1 zonal lobes with weights ẑ = Âᵀ f, where Â is sparse by the choice of the
+// lobe directions; turning the signal turns the lobes and keeps the weights.
+// Source: Nowrouzezahrai, Simari, Fiume, "Sparse Zonal Harmonic Factorization for Efficient SH Rotation",
+// eqs. 7 to 11.
+#include "kernels/lobes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "exact/legendre.hpp"
+#include "exact/spherical_harmonics.hpp"
+#include "graph/sum.hpp"
+#include "kernels/lobe_tensor.hpp"
+#include "kernels/rotation_scalars.hpp"
+
+namespace zonal::kernels {
+
+namespace {
+
+using exact::Real;
+using graph::Kernel;
+using graph::Kind;
+using graph::Value;
+
+const char* const kPaper = "Nowrouzezahrai et al., ";
+const char* const kSignalLayout = "index l(l+1)+m";
+const char* const kLobeLayout = "band l at l*l, lobe d at l*l + d, d = 0 .. 2l in table order";
+
+int band_start(int l) { return l * l; }
+int band_size(int l) { return 2 * l + 1; }
+
+/// out_i = sum_k weight(band, i, k) * in_k within every band.
+template <class Weight>
+void build_band_products(Kernel& kernel, const LobeSet& lobes, const char* result_name, Weight weight) {
+    for (int l = 0; l < lobes.order; ++l) {
+        for (int i = 0; i < band_size(l); ++i) {
+            kernel.graph.set_scope(fmt::format("b{}_{}{}", l, result_name, i));
+            std::vector<graph::Term> terms;
+            for (int k = 0; k < band_size(l); ++k)
+                terms.push_back({weight(l, i, k), kernel.input(0, band_start(l) + k)});
+            kernel.store(band_start(l) + i, linear_combination(kernel.graph, terms), l);
+        }
+    }
+}
+
+Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direction<Real>& direction, int lobe) {
+    Vector3 turned;
+    for (int i = 0; i < 3; ++i) {
+        std::vector<graph::Term> terms;
+        for (int j = 0; j < 3; ++j) {
+            const Real component = abs(direction(j)) < exact::kZeroThreshold ? Real(0) : direction(j);
+            terms.push_back({component, rows[i][j]});
+        }
+        turned[i] = linear_combination(kernel.graph, terms);
+        kernel.graph.set_name(turned[i].id, fmt::format("{}_d{}", "xyz"[i], lobe));
+    }
+    return turned;
+}
+
+/// The spherical harmonics of one turned lobe without their constant factors, made when first asked for:
+/// y_l^m = basis_scale(l, m) * q_l^|m|(z) * {C_m, S_m}(x, y).
+class LobeHarmonics {
+  public:
+    LobeHarmonics(Kernel& kernel, const Vector3& direction, int lobe)
+        : kernel_(kernel), x_(direction[0]), y_(direction[1]), z_(direction[2]), lobe_(lobe) {
+        powers_[1] = {x_, y_};
+    }
+
+    /// C_m + i S_m = (x + iy)^m, m >= 1.
+    struct Power {
+        Value cosine, sine;
+    };
+    Power power(int m) {
+        const auto known = powers_.find(m);
+        if (known != powers_.end()) return known->second;
+        const Power p = m == 2 ? Power{x_ * x_ - y_ * y_, (x_ + x_) * y_} : next(power(m - 1));
+        name(p.cosine, fmt::format("c{}", m));
+        name(p.sine, fmt::format("s{}", m));
+        return powers_[m] = p;
+    }
+
+    /// q_l^m(z), the monic multiple of d^m P_l / dz^m, by its three-term recurrence in l. The expanded
+    /// polynomial would take fewer products from degree 4 on, and loses (1 + √2)^l in accuracy at the pole.
+    Value legendre(int l, int m) {
+        const auto known = legendre_.find({l, m});
+        if (known != legendre_.end()) return known->second;
+        const Real a = recurrence(l - 1, m);
+        Value q;
+        switch (l - m) {
+            case 1: return z_;
+            case 2: q = square_minus(a); break;
+            case 3: q = z_ * square_minus(a + recurrence(l - 2, m)); break;
+            default: q = z_ * legendre(l - 1, m) - a * legendre(l - 2, m);
+        }
+        name(q, fmt::format("q{}_{}", l, m));
+        return legendre_[{l, m}] = q;
+    }
+
+  private:
+    /// z² - c. The first one fuses; the others differ from it by a constant, an addition in place of a fused
+    /// instruction.
+    Value square_minus(const Real& c) {
+        if (square_.graph == nullptr) {
+            square_ = z_ * z_ + (-c);
+            square_offset_ = c;
+        }
+        return square_ + (square_offset_ - c);
+    }
+    /// q_{l+1}^m = z q_l^m - recurrence(l, m) q_{l-1}^m
+    static Real recurrence(int l, int m) { return Real(l * l - m * m) / (4 * l * l - 1); }
+    Power next(const Power& p) const {
+        return {x_ * p.cosine - y_ * p.sine, x_ * p.sine + y_ * p.cosine};
+    }
+    void name(Value value, const std::string& meaning) {
+        kernel_.graph.set_name(value.id, fmt::format("{}_d{}", meaning, lobe_));
+    }
+
+    Kernel& kernel_;
+    Value x_, y_, z_;
+    int lobe_;
+    Value square_;         ///< z² - square_offset_, once it was asked for
+    Real square_offset_;
+    std::map<int, Power> powers_;
+    std::map<std::pair<int, int>, Value> legendre_;
+};
+
+/// A common factor taken out of a band's weights ẑ and put into the constants its outputs are multiplied by
+/// anyway: the one that leaves the fewest multiplications.
+Real cheapest_weight_scale(const exact::BandFactorization& band) {
+    const int l = band.band;
+    std::vector<Real> candidates{Real(1)};
+    for (int m = 0; m <= l; ++m) candidates.push_back(1 / exact::basis_scale(l, m));
+    for (const Real& entry : band.a_hat.reshaped())
+        if (entry != 0) candidates.push_back(abs(entry));
+    const auto cost = [&](const Real& scale) {
+        int multiplications = 0;
+        for (int d = 0; d < band_size(l); ++d) {
+            std::vector<Real> column;
+            for (int m = 0; m < band_size(l); ++m) column.push_back(band.a_hat(m, d) / scale);
+            multiplications += graph::multiplications(column);
+        }
+        for (int m = -l; m <= l; ++m) multiplications += graph::multiplications({exact::basis_scale(l, m) * scale});
+        return multiplications;
+    };
+    // The first of equally cheap ones: an order that does not depend on a sort.
+    Real best = candidates.front();
+    for (const Real& candidate : candidates)
+        if (cost(candidate) < cost(best)) best = candidate;
+    return best;
+}
+
+/// Band 1 is a vector in space (y, z, x): the paper turns it directly ("optimal linear lobe").
+void build_band_1(Kernel& kernel, const Matrix3& rows) {
+    const std::array<int, 3> axis_of{1, 2, 0};  // of coefficients 1, 2, 3
+    kernel.graph.set_scope("b1");
+    for (int i = 0; i < 3; ++i) {
+        Value sum{&kernel.graph, kernel.graph.constant(0)};
+        for (int j = 0; j < 3; ++j) sum = sum + rows[axis_of[i]][axis_of[j]] * kernel.input(1, 1 + j);
+        kernel.store(1 + i, sum, 1);
+    }
+}
+
+/// f'_lm = scale_lm * sum_d ẑ_d q_l^m(z_d) {C_m, S_m}(x_d, y_d), lobe by lobe.
+void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vector<LobeHarmonics>& harmonics) {
+    const int l = band.band;
+    const Real weight_scale = cheapest_weight_scale(band);
+    std::vector<Value> weights, sums(band_size(l), Value{&kernel.graph, kernel.graph.constant(0)});
+    for (int d = 0; d < band_size(l); ++d) {
+        kernel.graph.set_scope(fmt::format("b{}_d{}", l, d));
+        std::vector<graph::Term> terms;
+        for (int m = 0; m < band_size(l); ++m)
+            terms.push_back({band.a_hat(m, d) / weight_scale, kernel.input(1, band_start(l) + m)});
+        weights.push_back(linear_combination(kernel.graph, terms));
+        kernel.graph.set_name(weights.back().id, fmt::format("b{}_d{}", l, d));
+    }
+    for (int d = 0; d < band_size(l); ++d) {
+        kernel.graph.set_scope(fmt::format("b{}_d{}", l, d));
+        LobeHarmonics& lobe = harmonics[d];
+        sums[l] = sums[l] + lobe.legendre(l, 0) * weights[d];
+        for (int m = 1; m <= l; ++m) {
+            const auto [cosine, sine] = lobe.power(m);
+            const Value weighted = m == l ? weights[d] : lobe.legendre(l, m) * weights[d];
+            sums[l + m] = sums[l + m] + cosine * weighted;
+            sums[l - m] = sums[l - m] + sine * weighted;
+        }
+    }
+    kernel.graph.set_scope(fmt::format("b{}", l));
+    for (int m = -l; m <= l; ++m)
+        kernel.store(band_start(l) + l + m, (exact::basis_scale(l, m) * weight_scale) * sums[l + m], l);
+}
+
+}  // namespace
+
+Kernel build_factorize(const LobeSet& lobes) {
+    Kernel kernel;
+    kernel.name = "factorize";
+    kernel.summary = "Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.";
+    kernel.source = std::string(kPaper) + "eq. 7 and the one after it";
+    kernel.inputs = {{"f", Kind::signal, lobes.order * lobes.order, kSignalLayout}};
+    kernel.output = {"z", Kind::signal, lobes.order * lobes.order, kLobeLayout};
+    build_band_products(kernel, lobes, "d", [&](int l, int d, int m) { return lobes.bands[l].a_hat(m, d); });
+    return kernel;
+}
+
+Kernel build_expand(const LobeSet& lobes) {
+    Kernel kernel;
+    kernel.name = "expand";
+    kernel.summary = "The signal that weighted lobes sum to: f = Y^T z, band by band; undoes factorize.";
+    kernel.source = std::string(kPaper) + "section 4";
+    kernel.inputs = {{"z", Kind::signal, lobes.order * lobes.order, kLobeLayout}};
+    kernel.output = {"f", Kind::signal, lobes.order * lobes.order, kSignalLayout};
+    std::vector<exact::Matrix<Real>> y;
+    for (int l = 0; l < lobes.order; ++l) y.push_back(exact::band_matrix<Real>(l, lobes.directions));
+    build_band_products(kernel, lobes, "m", [&](int l, int m, int d) {
+        return abs(y[l](d, m)) < exact::kZeroThreshold ? Real(0) : y[l](d, m);
+    });
+    return kernel;
+}
+
+Kernel build_resample(const LobeSet& lobes) {
+    Kernel kernel;
+    kernel.name = "resample";
+    kernel.summary =
+        "The rotated signal from samples of its bands: element l*l + d of samples is band l of the\n"
+        "unrotated signal, f_l(w) = sum_m f_lm y_lm(w), at w = R^T (direction of lobe d).";
+    kernel.source = std::string(kPaper) + "eq. 11";
+    kernel.inputs = {{"samples", Kind::signal, lobes.order * lobes.order, kLobeLayout}};
+    kernel.output = {"out", Kind::signal, lobes.order * lobes.order, kSignalLayout};
+    build_band_products(kernel, lobes, "m", [&](int l, int m, int d) { return lobes.bands[l].a_hat(m, d); });
+    return kernel;
+}
+
+Kernel build_lobes(const LobeSet& lobes) {
+    Kernel kernel;
+    kernel.name = "lobes";
+    kernel.summary = "Turns the lobe directions of the table: R times each.";
+    kernel.source = std::string(kPaper) + "eq. 9";
+    kernel.inputs = {rotation_array()};
+    const int count = static_cast<int>(lobes.directions.size());
+    kernel.output = {"directions", Kind::rotation, 3 * count, "unit vectors x, y, z, in table order"};
+    const auto rows = rotation_rows(kernel);
+    for (int d = 0; d < count; ++d) {
+        kernel.graph.set_scope(fmt::format("d{}", d));
+        const Vector3 turned = rotate_direction(kernel, rows, lobes.directions[d], d);
+        for (int i = 0; i < 3; ++i) kernel.store(3 * d + i, turned[i], d);
+    }
+    return kernel;
+}
+
+Kernel build_rotate_zhf(const LobeSet& lobes) {
+    Kernel kernel;
+    kernel.name = "rotate_zhf";
+    kernel.summary =
+        "Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.\n"
+        "Bands are independent: a NaN stays in its band.";
+    kernel.source = std::string(kPaper) + "eq. 10";
+    kernel.bound_excess = fmt::format("{}/2 |R R^T - I|_F", lobes.order - 1);
+    kernel.inputs = {rotation_array(), {"f", Kind::signal, lobes.order * lobes.order, kSignalLayout}};
+    kernel.output = {"out", Kind::signal, lobes.order * lobes.order, kSignalLayout};
+    const Matrix3 given = rotation_rows(kernel);
+    kernel.store(0, kernel.input(1, 0), 0);
+    if (lobes.order == 3) {
+        // One band to turn: six lobes as a tensor cost less than an orthonormal matrix.
+        build_band_1(kernel, given);
+        build_band_2_tensor(kernel, given, lobes);
+        return kernel;
+    }
+    const Matrix3 rows = orthonormalized(kernel, given);
+    build_band_1(kernel, rows);
+    std::vector<LobeHarmonics> harmonics;
+    for (int d = 0; d < band_size(lobes.order - 1); ++d) {
+        kernel.graph.set_scope(fmt::format("d{}", d));
+        harmonics.emplace_back(kernel, rotate_direction(kernel, rows, lobes.directions[d], d), d);
+    }
+    for (int l = 2; l < lobes.order; ++l) build_band(kernel, lobes.bands[l], harmonics);
+    return kernel;
+}
+
+}  // namespace zonal::kernels

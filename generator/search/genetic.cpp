@@ -1,0 +1,166 @@
+// The genetic algorithm of Nowrouzezahrai et al., section 5 (one band) and section 6 (shared lobes).
+// Plain, an individual is a vector of angles; children come from two parents by uniform crossover, or from one by
+// mutation. So read it stalls from band 7 on, since a good angle alone is worth nothing. The cure keeps the
+// method and changes the gene: crossover and mutation exchange whole lobes, and every child is improved by a
+// short annealing over swaps of one lobe (swap_annealing.hpp).
+
+#include "search/genetic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zonal::search {
+namespace {
+
+/// The range of lambda that is worth trying: low finds zeros, high finds good conditions.
+constexpr double kSmallestNormWeight = 0.05, kLargestNormWeight = 8;
+
+bool contains(const LobeSet& lobes, Lobe lobe) { return std::ranges::find(lobes, lobe) != lobes.end(); }
+
+}  // namespace
+
+Genetic Genetic::of_paper() {
+    Genetic settings;
+    settings.population = 500;
+    return settings;
+}
+
+Genetic Genetic::with_local_steps(const Problem& problem) {
+    Genetic settings;
+    settings.population = 60;
+    settings.stall_generations = 10;
+    settings.is_plain = false;
+    settings.local_step.moves = 25 * problem.lobe_count * problem.lobe_count;
+    return settings;
+}
+
+Population::Population(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
+                       const Genetic& settings, Random random)
+    : problem_(&problem), grid_(&grid), objective_(objective), settings_(settings), random_(random) {
+    if (settings_.mutation_rate == 0) settings_.mutation_rate = 0.5 / problem.lobe_count;
+    restart();
+}
+
+void Population::restart() {
+    individuals_.clear();
+    for (int i = 0; i < settings_.population; ++i) individuals_.push_back(judge(random_lobes()));
+    sort();
+    stalled_ = 0;
+}
+
+Individual Population::judge(LobeSet lobes) {
+    ++evaluations_;
+    const Score score = search::score(*problem_, *grid_, lobes);
+    return {std::move(lobes), score, score.cost(objective_)};
+}
+
+LobeSet Population::random_lobes() {
+    const auto draw = [&] {
+        const bool is_as_in_paper = settings_.is_plain || random_.chance(0.5);
+        return is_as_in_paper ? grid_->random(random_) : grid_->random_on_great_circle(random_);
+    };
+    LobeSet lobes;
+    while (static_cast<int>(lobes.size()) < problem_->lobe_count) lobes.push_back(draw());
+    return lobes;
+}
+
+void Population::evolve() {
+    const double best_before = best().cost;
+    std::vector<Individual> next(individuals_.begin(), individuals_.begin() + settings_.elite);
+    while (static_cast<int>(next.size()) < settings_.population) {
+        LobeSet child = breed();
+        if (!settings_.is_plain) {
+            Annealing local_step = settings_.local_step;
+            local_step.norm_weight =
+                kSmallestNormWeight * std::pow(kLargestNormWeight / kSmallestNormWeight, random_.uniform());
+            child = anneal_by_swaps(*problem_, *grid_, objective_, local_step, child, random_);
+            evaluations_ += local_step.moves;
+        }
+        next.push_back(judge(std::move(child)));
+    }
+    individuals_ = std::move(next);
+    sort();
+    stalled_ = best().cost < best_before ? 0 : stalled_ + 1;
+}
+
+LobeSet Population::breed() {
+    const bool has_two_parents = random_.chance(settings_.crossover_fraction);
+    const LobeSet& mother = draw_parent();
+    if (has_two_parents) {
+        const LobeSet& father = draw_parent();
+        return settings_.is_plain ? cross_angles(mother, father) : cross_lobes(mother, father);
+    }
+    LobeSet child = mother;
+    settings_.is_plain ? mutate_angles(child) : mutate_lobes(child);
+    return child;
+}
+
+/// The better of two drawn at random.
+const LobeSet& Population::draw_parent() {
+    const int first = random_.below(settings_.population), second = random_.below(settings_.population);
+    return individuals_[std::min(first, second)].lobes;
+}
+
+LobeSet Population::cross_angles(const LobeSet& mother, const LobeSet& father) {
+    LobeSet child = mother;
+    for (std::size_t d = 0; d < child.size(); ++d) {
+        const int theta = (random_.chance(0.5) ? mother : father)[d].theta;
+        const int phi = (random_.chance(0.5) ? mother : father)[d].phi;
+        child[d] = grid_->canonical(theta, phi);
+    }
+    return child;
+}
+
+LobeSet Population::cross_lobes(const LobeSet& mother, const LobeSet& father) {
+    LobeSet child;
+    for (std::size_t d = 0; d < mother.size(); ++d) {
+        Lobe first = mother[d], second = father[d];
+        if (random_.chance(0.5)) std::swap(first, second);
+        if (contains(child, first)) first = second;
+        while (contains(child, first)) first = grid_->random(random_);
+        child.push_back(first);
+    }
+    return child;
+}
+
+void Population::mutate_angles(LobeSet& lobes) {
+    const CandidateGrid& grid = *grid_;
+    for (Lobe& lobe : lobes) {
+        int theta = lobe.theta, phi = lobe.phi;
+        if (random_.chance(settings_.mutation_rate)) theta = random_.below(static_cast<int>(grid.thetas().size()));
+        if (random_.chance(settings_.mutation_rate)) phi = random_.below(static_cast<int>(grid.phis().size()));
+        lobe = grid.canonical(theta, phi);
+    }
+}
+
+void Population::mutate_lobes(LobeSet& lobes) {
+    for (Lobe& lobe : lobes) {
+        // A lobe has two angles, so it changes twice as often as an angle.
+        if (!random_.chance(2 * settings_.mutation_rate)) continue;
+        Lobe other = lobe;
+        while (contains(lobes, other)) other = grid_->random(random_);
+        lobe = other;
+    }
+}
+
+void Population::adopt(const LobeSet& lobes) {
+    individuals_.back() = judge(lobes);
+    const double best_before = best().cost;
+    sort();
+    if (best().cost < best_before) stalled_ = 0;
+}
+
+std::vector<Individual> Population::best_of_each_cost(int count) const {
+    std::vector<Individual> best;
+    for (const Individual& individual : individuals_) {
+        if (static_cast<int>(best.size()) == count || std::isinf(individual.cost)) break;
+        if (best.empty() || individual.cost > best.back().cost + 1e-6) best.push_back(individual);
+    }
+    return best;
+}
+
+void Population::sort() {
+    std::ranges::stable_sort(individuals_, {}, [](const Individual& individual) { return individual.cost; });
+}
+
+}  // namespace zonal::search

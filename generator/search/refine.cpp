@@ -1,0 +1,225 @@
+// Refinement off the grid. The zero pattern of a good set can leave continuous freedom; along it another entry
+// may reach zero, or the condition may fall. NLopt's LBFGS minimises over the angles
+//   sum of (relations to keep)^2 + target^2   or   weight * sum of (relations to keep)^2 + sum of log2 ||Â_l||_F,
+// with exact gradients; `polish` then confirms the pattern at 50 digits or throws it out. Lobes at the pole stay
+// there, and an angle that was not moved keeps its closed form.
+
+#include "search/refine.hpp"
+
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <nlopt.hpp>
+#include <numeric>
+
+#include "search/angle_model.hpp"
+#include "search/pattern.hpp"
+#include "search/polish.hpp"
+
+namespace zonal::search {
+namespace {
+
+using exact::Real;
+
+/// An angle that moved less than this has not moved.
+constexpr double kStill = 1e-6;
+
+/// A gain of cost that is worth leaving closed forms for.
+constexpr double kWorthwhile = 0.02;
+
+/// theta in [0, pi/2], phi in [0, 2 pi), for the lobe or its antipode.
+AngledLobe wrapped(AngledLobe lobe) {
+    const Real pi = boost::math::constants::pi<Real>();
+    const auto set = [](Angle& angle, const Real& value) {
+        if (value == angle.value) return;
+        angle.value = value;
+        angle.text = exact::decimal_text(value);
+    };
+    const Real turns = floor(lobe.theta.value / (2 * pi));
+    set(lobe.theta, lobe.theta.value - turns * 2 * pi);
+    if (lobe.theta.value > pi) {
+        set(lobe.theta, 2 * pi - lobe.theta.value);
+        set(lobe.phi, lobe.phi.value + pi);
+    }
+    if (lobe.theta.value > pi / 2) {
+        set(lobe.theta, pi - lobe.theta.value);
+        set(lobe.phi, lobe.phi.value + pi);
+    }
+    set(lobe.phi, lobe.phi.value - floor(lobe.phi.value / (2 * pi)) * 2 * pi);
+    return lobe;
+}
+
+class Refiner {
+  public:
+    Refiner(const Problem& problem, const Objective& objective, const Solution& start)
+        : problem_(problem), objective_(objective), model_(problem), best_(start) {
+        adopt(start);
+    }
+
+    /// Tries the entries one after another, nearest to zero first; true as soon as one is gained.
+    bool gain_a_zero(const std::function<bool()>& is_stopped) {
+        const Pattern zeros = zeros_of(a_hats_);
+        if (!has_freedom(zeros)) return false;
+        for (const Relation& target : targets()) {
+            if (is_stopped()) return false;
+            Pattern pattern = zeros;
+            pattern.push_back(target);
+            const auto moved = minimise(pattern, 1, 0);
+            if (moved && accept(*moved, pattern)) return true;
+        }
+        return false;
+    }
+
+    /// Spends freedom on the condition; true when that was worth something.
+    bool lower_condition() {
+        Pattern pattern = zeros_of(a_hats_);
+        const Pattern equalities = equalities_of(a_hats_);
+        pattern.insert(pattern.end(), equalities.begin(), equalities.end());
+        if (!has_freedom(pattern)) return false;
+        const auto moved = minimise(pattern, 1e4, 1);
+        return moved && accept(*moved, pattern);
+    }
+
+    const Solution& best() const { return best_; }
+
+  private:
+    void adopt(const Solution& solution) {
+        best_ = solution;
+        angles_.clear();
+        for (const AngledLobe& lobe : solution.lobes) {
+            angles_.push_back(static_cast<double>(lobe.theta.value));
+            angles_.push_back(static_cast<double>(lobe.phi.value));
+        }
+        if (model_.evaluate(angles_)) a_hats_ = model_.a_hats();
+    }
+
+    /// Neither angle of a lobe at the pole is a coordinate there.
+    bool is_movable(int angle) const { return angles_[angle - angle % 2] > 1e-9; }
+
+    /// Whether angles can move, to first order, with the pattern unbroken.
+    bool has_freedom(const Pattern& pattern) {
+        model_.evaluate(angles_);
+        exact::Matrix<double> jacobian(pattern.size(), angles_.size());
+        for (std::size_t r = 0; r < pattern.size(); ++r) jacobian.row(r) = model_.residual_gradient(pattern[r]);
+        int movable = 0;
+        for (int i = 0; i < static_cast<int>(angles_.size()); ++i) {
+            movable += is_movable(i);
+            if (!is_movable(i)) jacobian.col(i).setZero();
+        }
+        Eigen::ColPivHouseholderQR<exact::Matrix<double>> decomposition;
+        decomposition.setThreshold(1e-7);
+        decomposition.compute(jacobian);
+        return decomposition.rank() < movable;
+    }
+
+    /// The entries of bands >= 2 that are not zero, smallest first.
+    Pattern targets() const {
+        Pattern targets;
+        for (std::size_t b = 0; b < a_hats_.size(); ++b) {
+            if (problem_.bands[b] < 2) continue;
+            for (int column = 0; column < a_hats_[b].cols(); ++column) {
+                for (int row = 0; row < a_hats_[b].rows(); ++row) {
+                    if (std::abs(a_hats_[b](row, column)) < kZeroInDouble) continue;
+                    targets.push_back({static_cast<int>(b), row, column});
+                }
+            }
+        }
+        std::ranges::stable_sort(targets, {}, [&](const Relation& target) {
+            return std::abs(target.residual(a_hats_[target.band_index]));
+        });
+        return targets;
+    }
+
+    /// Angles that minimise pattern_weight * (sum of squared residuals) + norm_weight * (sum of log norms),
+    /// from the present ones.
+    std::optional<std::vector<double>> minimise(const Pattern& pattern, double pattern_weight,
+                                                double norm_weight) {
+        const auto value_and_gradient = [&](const std::vector<double>& angles, std::vector<double>& gradient) {
+            std::vector<double> slope(angles.size(), 0.0);
+            double value = 0;
+            if (!model_.evaluate(angles)) {
+                value = 1e30;  // a wall
+            } else {
+                for (const Relation& relation : pattern) {
+                    const double residual = model_.residual(relation);
+                    value += pattern_weight * residual * residual;
+                    const exact::Vector<double> by_angle = model_.residual_gradient(relation);
+                    const double factor = 2 * pattern_weight * residual;
+                    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] += factor * by_angle(i);
+                }
+                if (norm_weight > 0) value += norm_weight * model_.log_norm(norm_weight, slope.data());
+            }
+            if (!gradient.empty()) {
+                for (int i = 0; i < static_cast<int>(slope.size()); ++i) gradient[i] = is_movable(i) ? slope[i] : 0;
+            }
+            return value;
+        };
+        using Function = decltype(value_and_gradient);
+        nlopt::opt optimiser(nlopt::LD_LBFGS, static_cast<unsigned>(angles_.size()));
+        optimiser.set_min_objective(
+            [](const std::vector<double>& x, std::vector<double>& gradient, void* function) {
+                return (*static_cast<Function*>(function))(x, gradient);
+            },
+            const_cast<void*>(static_cast<const void*>(&value_and_gradient)));
+        optimiser.set_maxeval(300);
+        optimiser.set_xtol_rel(1e-12);
+        if (norm_weight == 0) optimiser.set_stopval(1e-18);
+        std::vector<double> angles = angles_;
+        double value = 0;
+        try {
+            optimiser.optimize(angles, value);
+        } catch (const nlopt::roundoff_limited&) {
+            // As good as double gets: the last angles stand.
+        } catch (const std::runtime_error&) {
+            return std::nullopt;
+        }
+        if (norm_weight == 0 && value > 1e-10) return std::nullopt;
+        return angles;
+    }
+
+    /// Polishes, scores at 50 digits, and keeps what lowers the cost.
+    bool accept(const std::vector<double>& angles, const Pattern& pattern) {
+        AngledSet lobes = best_.lobes;
+        std::vector<bool> is_free(angles.size(), false);
+        for (int i = 0; i < static_cast<int>(angles.size()); ++i) {
+            if (!is_movable(i) || std::abs(angles[i] - angles_[i]) < kStill) continue;
+            is_free[i] = true;
+            Angle& angle = i % 2 == 0 ? lobes[i / 2].theta : lobes[i / 2].phi;
+            angle.value = angles[i];
+            angle.text = exact::decimal_text(angle.value);
+        }
+        auto polished = polish(problem_, lobes, pattern, is_free);
+        if (!polished) return false;
+        std::ranges::transform(*polished, polished->begin(), wrapped);
+        const Solution refined = confirm(problem_, *polished);
+        const double gain = best_.score.cost(objective_) - refined.score.cost(objective_);
+        if (!(gain > kWorthwhile)) return false;
+        adopt(refined);
+        return true;
+    }
+
+    const Problem& problem_;
+    const Objective& objective_;
+    AngleModel model_;
+    Solution best_;
+    std::vector<double> angles_;
+    std::vector<exact::Matrix<double>> a_hats_;
+};
+
+}  // namespace
+
+Solution confirm(const Problem& problem, const AngledSet& lobes) {
+    return {lobes, exact_score(problem, directions_of(lobes))};
+}
+
+Solution refine(const Problem& problem, const Objective& objective, const Solution& start,
+                const std::function<bool()>& is_stopped) {
+    if (start.score.is_singular()) return start;
+    Refiner refiner(problem, objective, start);
+    while (!is_stopped() && refiner.gain_a_zero(is_stopped)) {
+    }
+    if (!is_stopped()) refiner.lower_condition();
+    return refiner.best();
+}
+
+}  // namespace zonal::search

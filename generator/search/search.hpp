@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "search/genetic.hpp"
+#include "search/refine.hpp"
+
+namespace zonal::search {
+
+/// How long and in which way lobes are sought.
+struct SearchSettings {
+    std::uint64_t seed = 1;
+    int generations = 0;  ///< 0: until the best has not improved for `genetic.stall_generations`
+    double seconds = 0;   ///< stops earlier; 0: no limit
+    int islands = 4;      ///< fixed, so that the result does not depend on the machine's cores
+    int generations_between_exchanges = 10;
+    bool leaves_grid = true;  ///< refines the best sets off the grid
+    Objective objective;
+    Genetic genetic;
+    std::optional<AngledSet> start;  ///< lobes to begin from
+};
+
+/// Where a search stands after a generation.
+struct Progress {
+    int generation = 0;
+    int generations = 0;  ///< wanted; 0 when not known
+    Score best;           ///< at 50 digits
+    std::int64_t evaluations = 0;
+    double seconds = 0;       ///< since the start
+    double seconds_left = 0;  ///< an estimate; 0 when not known
+};
+
+/// Called between generations, in the caller's thread.
+struct SearchObserver {
+    std::function<void(const Progress&)> on_generation = [](const Progress&) {};
+    std::function<void(const Solution&, const Progress&)> on_better = [](const Solution&, const Progress&) {};
+};
+
+struct SearchResult {
+    Solution best;  ///< confirmed at 50 digits; no lobes when nothing but singular sets was met
+    Progress progress;
+};
+
+/// Sparse lobes for the bands of a problem, by genetic algorithms on islands that exchange their best. The same
+/// settings and number of generations give the same result, whatever the timing of threads.
+/// `stop`, once true, ends the search after the present generation.
+SearchResult search_lobes(const Problem& problem, const SearchSettings& settings, const std::atomic<bool>& stop,
+                          const SearchObserver& observer = {});
+
+}  // namespace zonal::search

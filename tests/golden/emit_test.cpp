@@ -1,0 +1,156 @@
+// The generator as people run it: same bytes every time, and clear errors.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Run {
+    int status = 0;
+    std::string output;  ///< standard output and error
+};
+
+Run run(const std::string& command) {
+    const fs::path log = fs::path(testing::TempDir()) / fmt::format("zonal_log_{}", getpid());
+    const int status = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
+    std::ifstream stream(log);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
+}
+
+Run zonal_gen(const std::string& arguments) { return run(fmt::format("'{}' {}", ZONAL_GEN, arguments)); }
+
+std::string read(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// A fresh folder for one test.
+fs::path fresh_folder(const std::string& name) {
+    const fs::path folder = fs::path(testing::TempDir()) / fmt::format("zonal_{}_{}", name, getpid());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    return folder;
+}
+
+TEST(Emit, twice_gives_the_same_bytes_and_those_that_are_committed) {
+    const fs::path first = fresh_folder("first"), second = fresh_folder("second");
+    ASSERT_EQ(zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", first.string())).status, 0);
+    ASSERT_EQ(zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", second.string())).status, 0);
+    const std::string text = read(first / "zonal/order04.hpp");
+    EXPECT_FALSE(text.empty());
+    EXPECT_EQ(text, read(second / "zonal/order04.hpp"));
+    EXPECT_EQ(text, read(fs::path(ZONAL_SOURCE_DIR) / "generated/cpp/zonal/order04.hpp"));
+}
+
+TEST(Emit, leaves_nothing_but_the_header) {
+    const fs::path folder = fresh_folder("only");
+    ASSERT_EQ(zonal_gen(fmt::format("emit --order 3 --language cpp --out '{}'", folder.string())).status, 0);
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files.push_back(entry.path().filename());
+    EXPECT_THAT(files, testing::ElementsAre("order03.hpp"));
+}
+
+TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
+    const fs::path folder = fresh_folder("columns");
+    for (const int order : {3, 6}) {
+        ASSERT_EQ(zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, folder.string())).status, 0);
+        std::istringstream lines(read(folder / fmt::format("zonal/order{:02}.hpp", order)));
+        for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+        EXPECT_THAT(lines.str(), Not(HasSubstr(folder.string())));
+    }
+}
+
+TEST(Emit, an_order_out_of_range_is_named) {
+    for (const int order : {0, 1, 21}) {
+        const Run result = zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
+        EXPECT_EQ(result.status, 1);
+        EXPECT_THAT(result.output, AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("2 … 20")));
+    }
+}
+
+TEST(Emit, an_unknown_language_is_named_with_the_known_ones) {
+    const Run result = zonal_gen("emit --order 4 --language cobol");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("cobol"), HasSubstr("cpp")));
+}
+
+TEST(Emit, a_missing_table_is_named_with_the_next_step) {
+    const Run result = zonal_gen("emit --order 4 --language cpp --table /nowhere/lobes.json");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("/nowhere/lobes.json"), HasSubstr("zonal-gen search")));
+}
+
+TEST(Emit, a_folder_that_cannot_be_written_is_named_and_gets_no_half_file) {
+    const fs::path folder = fresh_folder("blocked");
+    std::ofstream(folder / "zonal") << "a file where a folder is wanted";
+    const Run result = zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", folder.string()));
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr(folder.string()), HasSubstr("cannot write")));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+/// A copy of the committed kernels that a test may spoil.
+fs::path copy_of_generated(const std::string& name) {
+    const fs::path folder = fresh_folder(name);
+    fs::copy(fs::path(ZONAL_SOURCE_DIR) / "generated", folder, fs::copy_options::recursive);
+    return folder;
+}
+
+Run check_generated(const fs::path& folder, const std::string& option = "") {
+    return run(fmt::format("bash '{}/cmake/check_generated.sh' {} '{}' '{}'", ZONAL_SOURCE_DIR, option, ZONAL_GEN,
+                           folder.string()));
+}
+
+TEST(CheckGenerated, the_committed_code_is_what_the_generator_writes) {
+    const Run result = check_generated(fs::path(ZONAL_SOURCE_DIR) / "generated");
+    EXPECT_EQ(result.status, 0) << result.output;
+}
+
+TEST(CheckGenerated, a_file_edited_by_hand_fails_with_the_difference_and_the_accepting_command) {
+    const fs::path folder = copy_of_generated("edited");
+    std::ofstream(folder / "cpp/zonal/order04.hpp", std::ios::app) << "// by hand\n";
+    const Run result = check_generated(folder);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("// by hand"), HasSubstr("--accept")));
+}
+
+TEST(CheckGenerated, a_missing_file_fails) {
+    const fs::path folder = copy_of_generated("missing");
+    fs::remove(folder / "cpp/zonal/order05.hpp");
+    const Run result = check_generated(folder);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("order05.hpp"), HasSubstr("list of files differs")));
+}
+
+TEST(CheckGenerated, an_orphaned_file_fails) {
+    const fs::path folder = copy_of_generated("orphaned");
+    std::ofstream(folder / "cpp/zonal/order99.hpp") << "// nobody writes this\n";
+    const Run result = check_generated(folder);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("order99.hpp"), HasSubstr("list of files differs")));
+}
+
+TEST(CheckGenerated, accepting_puts_the_generators_output_in_place) {
+    const fs::path folder = copy_of_generated("accepted");
+    fs::remove(folder / "cpp/zonal/order05.hpp");
+    ASSERT_EQ(check_generated(folder, "--accept").status, 0);
+    EXPECT_EQ(check_generated(folder).status, 0);
+}
+
+}  // namespace

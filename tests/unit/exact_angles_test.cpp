@@ -1,0 +1,60 @@
+#include "exact/angles.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boost/math/constants/constants.hpp>
+#include <stdexcept>
+
+namespace zonal::exact {
+namespace {
+
+const Real kTolerance{"1e-48"};
+
+Real pi() { return boost::math::constants::pi<Real>(); }
+
+TEST(ClosedForm, reads_the_forms_that_tables_use) {
+    EXPECT_EQ(evaluate_closed_form("0"), 0);
+    EXPECT_LT(abs(evaluate_closed_form("pi/2") - pi() / 2), kTolerance);
+    EXPECT_LT(abs(evaluate_closed_form("3*pi/8") - 3 * pi() / 8), kTolerance);
+    EXPECT_LT(abs(evaluate_closed_form("acos(sqrt(3/7))") - acos(sqrt(Real(3) / 7))), kTolerance);
+    EXPECT_LT(abs(evaluate_closed_form("acos(sqrt((15-2*sqrt(30))/35))") -
+                  acos(sqrt((15 - 2 * sqrt(Real(30))) / 35))),
+              kTolerance);
+}
+
+TEST(ClosedForm, keeps_every_digit_of_a_decimal) {
+    const std::string digits = "1.2345678901234567890123456789012345678901234567891";
+    EXPECT_EQ(decimal_text(evaluate_closed_form(digits)), digits);
+}
+
+TEST(ClosedForm, multiplies_before_adding_and_groups_from_the_left) {
+    EXPECT_EQ(evaluate_closed_form("1 + 2*3"), 7);
+    EXPECT_EQ(evaluate_closed_form("10 - 4 - 3"), 3);
+    EXPECT_EQ(evaluate_closed_form("12/3/2"), 2);
+    EXPECT_EQ(evaluate_closed_form("-(2+3)*2"), -10);
+}
+
+TEST(ClosedForm, quotes_what_it_cannot_read) {
+    for (const char* text : {"", "pi/", "sqrt(2", "cos(1)", "1..2", "1/0", "acos(2)", "sqrt(-1)", "pi pi"}) {
+        try {
+            evaluate_closed_form(text);
+            ADD_FAILURE() << "read \"" << text << '"';
+        } catch (const std::invalid_argument& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr('"' + std::string(text) + '"'));
+            EXPECT_THAT(error.what(), testing::HasSubstr("character"));
+        }
+    }
+}
+
+TEST(DirectionOf, coordinate_planes_have_exact_zeros) {
+    const Direction<Real> x = direction_of(pi() / 2, Real(0));
+    EXPECT_EQ(x(1), 0);
+    EXPECT_EQ(x(2), 0);
+    const Direction<Real> minus_y = direction_of(pi() / 2, 3 * pi() / 2);
+    EXPECT_EQ(minus_y(0), 0);
+    EXPECT_LT(abs(minus_y(1) + 1), kTolerance);
+}
+
+}  // namespace
+}  // namespace zonal::exact

@@ -1,0 +1,281 @@
+#include "lobe_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "exact/angles.hpp"
+#include "user_error.hpp"
+
+namespace zonal {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// An order-3 table with 16 zeros in band 2.
+LobeTable small_table() {
+    LobeTable table;
+    table.order = 3;
+    table.seed = 7;
+    table.command = "zonal-gen search --order 3 --seed 7 --out generator/tables/order03.json";
+    table.angles = {{"0", "0"},
+                    {"acos(sqrt(1/3))", "pi/4"},
+                    {"acos(sqrt(1/3))", "5*pi/4"},
+                    {"acos(sqrt(1/3))", "7*pi/4"},
+                    {"pi/2", "pi/2"}};
+    for (const auto& [theta, phi] : table.angles) {
+        table.directions.push_back(
+            exact::direction_of(exact::evaluate_closed_form(theta), exact::evaluate_closed_form(phi)));
+    }
+    measure_lobe_table(table);
+    return table;
+}
+
+class LobeTableFile : public testing::Test {
+  protected:
+    LobeTableFile() {
+        folder_ = fs::temp_directory_path() / ("zonal_lobe_table_test_" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        path_ = folder_ / "order03.json";
+    }
+    ~LobeTableFile() override { fs::remove_all(folder_); }
+
+    std::string text_of(const LobeTable& table) {
+        write_lobe_table(path_, table);
+        std::ostringstream text;
+        text << std::ifstream(path_).rdbuf();
+        return text.str();
+    }
+
+    void save(const std::string& text) const { std::ofstream(path_) << text; }
+
+    /// Changes the one place of the file where `from` stands first.
+    void edit(const std::string& from, const std::string& to) {
+        std::string text = text_of(small_table());
+        const std::size_t place = text.find(from);
+        ASSERT_NE(place, std::string::npos) << from;
+        save(text.replace(place, from.size(), to));
+    }
+
+    std::string complaint(int order = 3, double cap = kConditionCap) const {
+        try {
+            read_lobe_table(path_, order, cap);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return "no complaint";
+    }
+
+    /// File and next step, which every message has.
+    auto names_file_and_next_step() const {
+        return AllOf(HasSubstr(path_.string()),
+                     HasSubstr("run: zonal-gen search --order 3 --out " + path_.string()));
+    }
+
+    fs::path folder_, path_;
+};
+
+TEST_F(LobeTableFile, what_is_written_is_read_back) {
+    const LobeTable written = small_table();
+    write_lobe_table(path_, written);
+    const LobeTable read = read_lobe_table(path_, 3);
+    EXPECT_EQ(read.order, 3);
+    EXPECT_EQ(read.seed, 7);
+    EXPECT_EQ(read.command, written.command);
+    EXPECT_EQ(read.zeros, written.zeros);
+    EXPECT_EQ(read.zeros, (std::vector<int>{0, 2, 16}));
+    EXPECT_EQ(read.nonzeros, 9);
+    EXPECT_EQ(read.sha256.size(), 64);
+    for (int d = 0; d < 5; ++d) {
+        EXPECT_LT((read.directions[d] - written.directions[d]).norm(), exact::Real{"1e-48"});
+        EXPECT_EQ(read.angles[d].theta, written.angles[d].theta);
+        EXPECT_EQ(read.angles[d].phi, written.angles[d].phi);
+    }
+}
+
+TEST_F(LobeTableFile, same_table_gives_same_bytes) {
+    const std::string first = text_of(small_table());
+    const std::string sum = read_lobe_table(path_, 3).sha256;
+    EXPECT_EQ(text_of(read_lobe_table(path_, 3)), first);
+    EXPECT_EQ(read_lobe_table(path_, 3).sha256, sum);
+}
+
+TEST_F(LobeTableFile, sha256_is_that_of_the_bytes) {
+    // An empty object is refused, but only after its bytes were read: use a known sum of a whole table instead.
+    const std::string text = text_of(small_table());
+    save(text + "\n");
+    const std::string longer = read_lobe_table(path_, 3).sha256;
+    save(text);
+    EXPECT_NE(read_lobe_table(path_, 3).sha256, longer);
+}
+
+TEST_F(LobeTableFile, missing_file_is_named) {
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("no such table")));
+}
+
+TEST_F(LobeTableFile, truncated_file_says_where_it_breaks) {
+    const std::string text = text_of(small_table());
+    save(text.substr(0, text.size() / 2));
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("truncated"), HasSubstr("byte")));
+}
+
+TEST_F(LobeTableFile, missing_field_is_named) {
+    edit("\"seed\"", "\"sead\"");
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("seed: found nothing")));
+}
+
+TEST_F(LobeTableFile, field_of_another_type_is_named_with_its_value) {
+    edit("\"seed\": 7", "\"seed\": \"seven\"");
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("seed: found \"seven\"")));
+}
+
+TEST_F(LobeTableFile, another_order_is_refused) {
+    write_lobe_table(path_, small_table());
+    EXPECT_THAT(complaint(4), AllOf(HasSubstr("order: found 3, wanted 4"), HasSubstr("--order 4")));
+}
+
+TEST_F(LobeTableFile, wrong_number_of_directions_is_refused) {
+    LobeTable table = small_table();
+    table.directions.pop_back();
+    write_lobe_table(path_, table);
+    EXPECT_THAT(complaint(),
+                AllOf(names_file_and_next_step(), HasSubstr("directions: found 4 entries, wanted 5")));
+}
+
+TEST_F(LobeTableFile, duplicate_lobe_is_refused) {
+    LobeTable table = small_table();
+    table.directions[4] = table.directions[1];
+    write_lobe_table(path_, table);
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(),
+                                   HasSubstr("directions[4]: found the lobe of directions[1] again")));
+}
+
+TEST_F(LobeTableFile, antipodal_lobe_is_a_duplicate) {
+    LobeTable table = small_table();
+    table.directions[3] = -table.directions[0];
+    write_lobe_table(path_, table);
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("directions[3]"), HasSubstr("antipode")));
+}
+
+TEST_F(LobeTableFile, direction_that_is_not_unit_is_refused) {
+    LobeTable table = small_table();
+    table.directions[2] *= exact::Real{"1.000001"};
+    write_lobe_table(path_, table);
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("directions[2]"),
+                                   HasSubstr("found squared length 1 + 2.0"), HasSubstr("unit direction")));
+}
+
+TEST_F(LobeTableFile, component_that_is_no_number_is_refused) {
+    edit("[\"0\", \"0\", \"1\"]", "[\"0\", \"zero\", \"1\"]");
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("directions: found \"zero\"")));
+}
+
+TEST_F(LobeTableFile, angles_must_give_the_directions) {
+    edit("[\"pi/2\", \"pi/2\"]", "[\"pi/2\", \"pi/3\"]");
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("angles[4]"), HasSubstr("pi/3")));
+}
+
+TEST_F(LobeTableFile, angle_that_cannot_be_read_is_quoted) {
+    edit("[\"pi/2\", \"pi/2\"]", "[\"pi/2\", \"half a turn\"]");
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("angles[4]"), HasSubstr("half a turn")));
+}
+
+/// Replaces one lobe and measures anew, so that nothing else is wrong with the table.
+LobeTable with_lobe(LobeTable table, int d, const std::string& theta, const std::string& phi) {
+    table.angles[d] = {theta, phi};
+    table.directions[d] =
+        exact::direction_of(exact::evaluate_closed_form(theta), exact::evaluate_closed_form(phi));
+    measure_lobe_table(table);
+    return table;
+}
+
+TEST_F(LobeTableFile, singular_band_is_named) {
+    // Two lobes of one meridian with the pole: band 1 has no third dimension. Infinity is no JSON, so the file
+    // claims some number.
+    LobeTable table = with_lobe(small_table(), 2, "acos(1/7)", "pi/4");
+    table.condition[1] = 1;
+    write_lobe_table(path_, table);
+    EXPECT_THAT(complaint(),
+                AllOf(names_file_and_next_step(), HasSubstr("cond[1]"), HasSubstr("singular lobes in band 1")));
+}
+
+TEST_F(LobeTableFile, condition_over_the_cap_is_refused) {
+    write_lobe_table(path_, with_lobe(small_table(), 2, "acos(1/7)", "pi/4+1/1000"));
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("cond[1]: found condition"),
+                                   HasSubstr("wanted at most 50")));
+}
+
+TEST_F(LobeTableFile, smaller_cap_may_be_asked_for) {
+    write_lobe_table(path_, small_table());
+    EXPECT_EQ(complaint(3, 10), "no complaint");
+    EXPECT_THAT(complaint(3, 2), HasSubstr("wanted at most 2"));
+}
+
+TEST_F(LobeTableFile, claims_that_the_directions_do_not_confirm_are_refused) {
+    const auto refused = [&](LobeTable table, const char* message) {
+        write_lobe_table(path_, table);
+        EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr(message)));
+    };
+    LobeTable table = small_table();
+    table.zeros[2] = 17;
+    refused(table, "zeros[2]: found 17, wanted 16");
+    table = small_table();
+    table.nonzeros = 8;
+    refused(table, "nonzeros: found 8, wanted 9");
+    table = small_table();
+    table.condition[2] *= 1.01;
+    refused(table, "cond[2]: found");
+}
+
+TEST_F(LobeTableFile, rounding_of_the_condition_is_forgiven) {
+    LobeTable table = small_table();
+    table.condition[2] *= 1 + 1e-6;
+    write_lobe_table(path_, table);
+    EXPECT_EQ(complaint(), "no complaint");
+}
+
+TEST_F(LobeTableFile, writing_into_a_file_as_if_a_folder_fails_and_leaves_nothing) {
+    save("not a folder");
+    const fs::path inside = path_ / "order03.json";
+    try {
+        write_lobe_table(inside, small_table());
+        ADD_FAILURE() << "written";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr(inside.string()), HasSubstr("cannot write")));
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(LobeTableFile, unwritable_folder_fails_and_leaves_nothing) {
+    if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_THROW(write_lobe_table(path_, small_table()), UserError);
+    EXPECT_FALSE(fs::exists(path_));
+    fs::permissions(folder_, fs::perms::owner_all);
+}
+
+TEST(LobeTableName, has_two_digits) {
+    EXPECT_EQ(lobe_table_name(4), "order04.json");
+    EXPECT_EQ(lobe_table_name(12), "order12.json");
+}
+
+class CommittedTable : public testing::TestWithParam<int> {};
+
+TEST_P(CommittedTable, is_verified_and_not_worse_than_promised) {
+    const int order = GetParam();
+    const LobeTable table = read_lobe_table(fs::path(ZONAL_TABLES_DIR) / lobe_table_name(order), order);
+    const int promised[] = {0, 0, 0, 9, 28, 67, 132};
+    EXPECT_LE(table.nonzeros, promised[order]);
+    EXPECT_THAT(table.command, HasSubstr("--out generator/tables/" + lobe_table_name(order).string()));
+}
+
+INSTANTIATE_TEST_SUITE_P(orders, CommittedTable, testing::Values(3, 4, 5, 6));
+
+}  // namespace
+}  // namespace zonal

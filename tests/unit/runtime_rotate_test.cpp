@@ -1,0 +1,231 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "zonal/basis.hpp"
+#include "zonal/error.hpp"
+#include "zonal/rotate.hpp"
+
+namespace {
+
+using zonal::Rgb;
+using zonal::RotationMatrix;
+
+constexpr int kMissingOrder = 21;
+
+/// These tests look for mistakes of sign, index, convention or channel, which cost an error of order 1 on
+/// signals of norm below 10. The kernels' own bounds are tested with the kernels; the largest of them, times
+/// the norm and the (order) values summed at a point, stays below these.
+template <class T>
+constexpr double kConventionTolerance = std::is_same_v<T, float> ? 1e-3 : 1e-11;
+
+int smallest_order() { return zonal::compiled_orders().front(); }
+
+std::size_t length(int order) { return static_cast<std::size_t>(order) * order; }
+
+/// Unequal weights in every coefficient, so that no sign mistake cancels.
+template <class T>
+std::vector<T> asymmetric_signal(int order, unsigned seed = 1) {
+    std::mt19937 generator(seed);
+    std::vector<T> signal(length(order));
+    for (T& value : signal) value = static_cast<T>(generator()) / static_cast<T>(generator.max()) - T(0.5);
+    return signal;
+}
+
+Eigen::Matrix3d asymmetric_rotation() {
+    return Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+}
+
+std::vector<double> to_double(const auto& values) { return {values.begin(), values.end()}; }
+
+/// f'(w) = f(R^T w) at a few directions in general position: needs no rotation of coefficients.
+template <class T>
+void expect_matches_pointwise_oracle(int order, const Eigen::Matrix3d& matrix) {
+    const std::vector<T> in = asymmetric_signal<T>(order);
+    std::vector<T> out(in.size());
+    zonal::rotate(order, RotationMatrix<T>(matrix), in, out);
+    for (const auto& [x, y, z] :
+         {std::array{1.0, 0.2, 0.3}, {-0.4, 1.0, -0.7}, {0.1, -0.5, 1.0}, {-1, -2, -3}}) {
+        const Eigen::Vector3d direction = Eigen::Vector3d(x, y, z).normalized();
+        const double wanted = zonal::evaluate(order, to_double(in), matrix.transpose() * direction);
+        const double found = zonal::evaluate(order, to_double(out), direction);
+        EXPECT_NEAR(found, wanted, kConventionTolerance<T>) << "order " << order;
+    }
+}
+
+std::string message_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const zonal::Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+template <class T>
+class runtime_rotate : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(runtime_rotate, Scalars);
+
+TYPED_TEST(runtime_rotate, identity_returns_input) {
+    for (const int order : zonal::compiled_orders()) {
+        const auto in = asymmetric_signal<TypeParam>(order);
+        std::vector<TypeParam> out(in.size());
+        zonal::rotate(order, RotationMatrix<TypeParam>(), in, out);
+        for (std::size_t i = 0; i < in.size(); ++i) {
+            EXPECT_NEAR(out[i], in[i], kConventionTolerance<TypeParam>)
+                << "order " << order << ", index " << i;
+        }
+    }
+}
+
+TYPED_TEST(runtime_rotate, column_major_eigen_matrix_turns_x_into_y) {
+    const Eigen::Matrix3d column_major =
+        Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    constexpr int kY = 1;  // index l(l+1)+m for l = 1, m = -1
+    constexpr int kX = 3;  // m = +1
+    for (const int order : zonal::compiled_orders()) {
+        if (order < 2) continue;
+        std::vector<TypeParam> in(length(order));
+        in[kX] = 1;
+        std::vector<TypeParam> wanted(length(order));
+        wanted[kY] = 1;
+        std::vector<TypeParam> out(length(order));
+        zonal::rotate(order, RotationMatrix<TypeParam>(column_major), in, out);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            EXPECT_NEAR(out[i], wanted[i], kConventionTolerance<TypeParam>)
+                << "order " << order << ", index " << i;
+        }
+    }
+}
+
+TYPED_TEST(runtime_rotate, rotation_matches_pointwise_oracle) {
+    for (const int order : zonal::compiled_orders()) {
+        expect_matches_pointwise_oracle<TypeParam>(order, asymmetric_rotation());
+    }
+}
+
+TYPED_TEST(runtime_rotate, mirror_matches_pointwise_oracle) {
+    const Eigen::Matrix3d mirror = asymmetric_rotation() * Eigen::Vector3d(1, -1, 1).asDiagonal();
+    for (const int order : zonal::compiled_orders())
+        expect_matches_pointwise_oracle<TypeParam>(order, mirror);
+}
+
+TYPED_TEST(runtime_rotate, each_rgb_channel_turns_like_a_single_one) {
+    const RotationMatrix<TypeParam> rotation(asymmetric_rotation());
+    for (const int order : zonal::compiled_orders()) {
+        const auto red = asymmetric_signal<TypeParam>(order, 1);
+        const auto green = asymmetric_signal<TypeParam>(order, 2);
+        const auto blue = asymmetric_signal<TypeParam>(order, 3);
+        std::vector<Rgb<TypeParam>> in;
+        for (std::size_t i = 0; i < red.size(); ++i) in.push_back({red[i], green[i], blue[i]});
+        std::vector<Rgb<TypeParam>> out(in.size());
+        zonal::rotate(order, rotation, in, out);
+
+        std::vector<TypeParam> red_out(red.size()), green_out(red.size()), blue_out(red.size());
+        zonal::rotate(order, rotation, red, red_out);
+        zonal::rotate(order, rotation, green, green_out);
+        zonal::rotate(order, rotation, blue, blue_out);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            EXPECT_NEAR(out[i].r, red_out[i], kConventionTolerance<TypeParam>) << "order " << order;
+            EXPECT_NEAR(out[i].g, green_out[i], kConventionTolerance<TypeParam>) << "order " << order;
+            EXPECT_NEAR(out[i].b, blue_out[i], kConventionTolerance<TypeParam>) << "order " << order;
+        }
+    }
+}
+
+TYPED_TEST(runtime_rotate, in_place_gives_the_same_values) {
+    const RotationMatrix<TypeParam> rotation(asymmetric_rotation());
+    for (const int order : zonal::compiled_orders()) {
+        auto signal = asymmetric_signal<TypeParam>(order);
+        std::vector<TypeParam> separate(signal.size());
+        zonal::rotate(order, rotation, signal, separate);
+        zonal::rotate(order, rotation, signal, signal);
+        EXPECT_EQ(signal, separate) << "order " << order;
+    }
+}
+
+TYPED_TEST(runtime_rotate, nan_stays_within_its_band) {
+    const RotationMatrix<TypeParam> rotation(asymmetric_rotation());
+    for (const int order : zonal::compiled_orders()) {
+        auto in = asymmetric_signal<TypeParam>(order);
+        in.back() = std::numeric_limits<TypeParam>::quiet_NaN();
+        std::vector<TypeParam> out(in.size());
+        zonal::rotate(order, rotation, in, out);
+        const auto last_band = out.begin() + (order - 1) * (order - 1);
+        EXPECT_TRUE(std::all_of(out.begin(), last_band, [](TypeParam v) { return std::isfinite(v); }))
+            << "order " << order;
+        EXPECT_TRUE(std::any_of(last_band, out.end(), [](TypeParam v) { return std::isnan(v); }))
+            << "order " << order;
+    }
+}
+
+TEST(runtime_rotate_door, compiled_orders_ascend) {
+    const auto orders = zonal::compiled_orders();
+    ASSERT_FALSE(orders.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(orders, std::less_equal<>()) || orders.size() == 1);
+}
+
+TEST(runtime_rotate_door, order_that_is_not_compiled_names_those_that_are) {
+    std::vector<float> signal(length(kMissingOrder));
+    const std::string message =
+        message_of([&] { zonal::rotate(kMissingOrder, RotationMatrix<float>(), signal, signal); });
+    std::string list;
+    for (const int order : zonal::compiled_orders())
+        list += (list.empty() ? "" : ", ") + std::to_string(order);
+    EXPECT_NE(message.find("order: found 21"), std::string::npos) << message;
+    EXPECT_NE(message.find("compiled in: " + list + ";"), std::string::npos) << message;
+}
+
+TEST(runtime_rotate_door, negative_order_is_refused) {
+    std::vector<float> signal(9);
+    const std::string message =
+        message_of([&] { zonal::rotate(-3, RotationMatrix<float>(), signal, signal); });
+    EXPECT_NE(message.find("order: found -3"), std::string::npos) << message;
+}
+
+TEST(runtime_rotate_door, span_of_wrong_length_is_named_with_both_lengths) {
+    const int order = smallest_order();
+    std::vector<double> right(length(order));
+    std::vector<double> wrong(length(order) + 1);
+    const std::string tail = " for order " + std::to_string(order) + ": found " +
+                             std::to_string(wrong.size()) + ", wanted " + std::to_string(right.size());
+    const std::string in_message =
+        message_of([&] { zonal::rotate(order, RotationMatrix<double>(), wrong, right); });
+    EXPECT_NE(in_message.find("length of in" + tail), std::string::npos) << in_message;
+    const std::string out_message =
+        message_of([&] { zonal::rotate(order, RotationMatrix<double>(), right, wrong); });
+    EXPECT_NE(out_message.find("length of out" + tail), std::string::npos) << out_message;
+}
+
+TEST(runtime_rotate_door, partial_overlap_is_refused_and_leaves_the_values) {
+    const int order = smallest_order();
+    std::vector<float> storage(length(order) + 1, 7.0F);
+    const std::span<float> all(storage);
+    const auto head = all.first(length(order));
+    const auto tail = all.last(length(order));
+    const RotationMatrix<float> rotation(asymmetric_rotation());
+    EXPECT_NE(message_of([&] { zonal::rotate(order, rotation, head, tail); }).find("overlap in part"),
+              std::string::npos);
+    EXPECT_NE(message_of([&] { zonal::rotate(order, rotation, tail, head); }).find("overlap in part"),
+              std::string::npos);
+    EXPECT_EQ(storage, std::vector<float>(storage.size(), 7.0F));
+}
+
+TEST(runtime_rotate_door, neighbouring_spans_do_not_overlap) {
+    const int order = smallest_order();
+    std::vector<float> storage(2 * length(order), 1.0F);
+    const std::span<float> all(storage);
+    EXPECT_NO_THROW(
+        zonal::rotate(order, RotationMatrix<float>(), all.first(length(order)), all.last(length(order))));
+}
+
+}  // namespace

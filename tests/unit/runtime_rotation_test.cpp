@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "zonal/error.hpp"
+#include "zonal/rotation.hpp"
+
+namespace {
+
+using zonal::RotationMatrix;
+
+/// Every entry different, so that a transpose or a swapped axis shows.
+Eigen::Matrix3d asymmetric_rotation() {
+    return Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+}
+
+std::string message_of_check(const RotationMatrix<float>& rotation, double tolerance) {
+    try {
+        zonal::checked_rotation(rotation, tolerance);
+    } catch (const zonal::Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(runtime_rotation, default_is_identity) {
+    EXPECT_EQ(RotationMatrix<float>().matrix(), Eigen::Matrix3f::Identity());
+}
+
+TEST(runtime_rotation, column_major_matrix_is_stored_row_major) {
+    const Eigen::Matrix3d column_major = asymmetric_rotation();
+    const RotationMatrix<double> rotation(column_major);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            EXPECT_EQ(rotation.data()[3 * row + column], column_major(row, column));
+        }
+    }
+}
+
+TEST(runtime_rotation, quarter_turn_about_z_stores_the_images_of_the_axes_as_columns) {
+    const RotationMatrix<double> rotation(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
+    const double x_into_y = rotation.data()[3 * 1 + 0];  // row y, column x
+    const double y_into_x = rotation.data()[3 * 0 + 1];
+    EXPECT_DOUBLE_EQ(x_into_y, 1.0);
+    EXPECT_DOUBLE_EQ(y_into_x, -1.0);
+}
+
+TEST(runtime_rotation, expression_is_accepted) {
+    const Eigen::Matrix3d m = asymmetric_rotation();
+    EXPECT_EQ(RotationMatrix<double>(m.transpose()).matrix(), m.transpose().eval());
+}
+
+TEST(runtime_rotation, quaternion_agrees_with_its_matrix) {
+    const Eigen::Quaterniond q(asymmetric_rotation());
+    EXPECT_EQ(RotationMatrix<double>(q).matrix(), q.toRotationMatrix());
+}
+
+TEST(runtime_rotation, double_values_are_rounded_to_float) {
+    const Eigen::Matrix3d m = asymmetric_rotation();
+    EXPECT_EQ(RotationMatrix<float>(m).matrix(), m.cast<float>());
+}
+
+TEST(runtime_rotation, orthonormality_error_of_one_stretched_axis_is_known) {
+    // R = diag(1 + e, 1, 1) has R R^T - I = diag(2 e + e^2, 0, 0); e is a power of two, so nothing is
+    // rounded.
+    const double e = 0x1p-10;
+    const RotationMatrix<double> stretched(Eigen::Vector3d(1 + e, 1, 1).asDiagonal().toDenseMatrix());
+    EXPECT_EQ(zonal::orthonormality_error(stretched), 2 * e + e * e);
+}
+
+TEST(runtime_rotation, orthonormality_error_sees_a_shear_in_both_rows) {
+    // R = I + e E_01: R R^T - I has e^2 at (0, 0) and e at (0, 1) and (1, 0).
+    const double e = 0x1p-10;
+    Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
+    shear(0, 1) = e;
+    const double exact = std::sqrt(2 * e * e + e * e * e * e);
+    EXPECT_NEAR(zonal::orthonormality_error(RotationMatrix<double>(shear)), exact, 1e-15);
+}
+
+TEST(runtime_rotation, rounded_rotation_passes_two_epsilons) {
+    // The bound derived at checked_rotation: sqrt(3) epsilon to first order.
+    const RotationMatrix<float> rotation(asymmetric_rotation());
+    const double tolerance = 2.0 * std::numeric_limits<float>::epsilon();
+    EXPECT_EQ(zonal::checked_rotation(rotation, tolerance).matrix(), rotation.matrix());
+}
+
+TEST(runtime_rotation, stretched_matrix_is_refused_with_the_error_measured) {
+    const RotationMatrix<float> stretched(Eigen::Vector3f(1.5F, 1, 1).asDiagonal().toDenseMatrix());
+    const std::string message = message_of_check(stretched, 1e-3);
+    EXPECT_NE(message.find("found 1.25"), std::string::npos) << message;
+    EXPECT_NE(message.find("at most 0.001"), std::string::npos) << message;
+    EXPECT_NE(message.find("orthonormalise"), std::string::npos) << message;
+}
+
+TEST(runtime_rotation, value_that_is_not_finite_is_refused_by_place) {
+    Eigen::Matrix3f m = Eigen::Matrix3f::Identity();
+    m(1, 2) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NE(message_of_check(RotationMatrix<float>(m), 1e9).find("row 1, column 2: found nan"),
+              std::string::npos);
+    m(1, 2) = -std::numeric_limits<float>::infinity();
+    EXPECT_NE(message_of_check(RotationMatrix<float>(m), 1e9).find("row 1, column 2: found -inf"),
+              std::string::npos);
+}
+
+TEST(runtime_rotation, tolerance_that_is_not_a_number_accepts_nothing) {
+    EXPECT_NE(message_of_check(RotationMatrix<float>(), std::nan("")), "no error");
+}
+
+TEST(runtime_rotation, mirror_is_recognised_and_accepted) {
+    const Eigen::Matrix3d mirror = asymmetric_rotation() * Eigen::Vector3d(1, 1, -1).asDiagonal();
+    EXPECT_TRUE(zonal::is_mirror(RotationMatrix<double>(mirror)));
+    EXPECT_FALSE(zonal::is_mirror(RotationMatrix<double>(asymmetric_rotation())));
+    EXPECT_NO_THROW(zonal::checked_rotation(RotationMatrix<double>(mirror), 1e-14));
+}
+
+}  // namespace

@@ -1,0 +1,66 @@
+#include "search/genetic.hpp"
+
+#include <gtest/gtest.h>
+
+namespace zonal::search {
+namespace {
+
+TEST(PlainGenetic, finds_most_zeros_of_band_2_as_in_the_paper) {
+    const Problem problem = Problem::one_band(2);
+    const CandidateGrid grid(2);
+    Population population(problem, grid, {}, Genetic::of_paper(), Random(1, 0));
+    for (int generation = 0; generation < 60; ++generation) population.evolve();
+    EXPECT_EQ(population.best().score.zeros, 16);  // 64 % of 25
+}
+
+TEST(PlainGenetic, never_loses_its_best) {
+    const Problem problem = Problem::one_band(3);
+    const CandidateGrid grid(3);
+    Population population(problem, grid, {}, Genetic::of_paper(), Random(2, 0));
+    double best = population.best().cost;
+    for (int generation = 0; generation < 20; ++generation) {
+        population.evolve();
+        EXPECT_LE(population.best().cost, best);
+        best = population.best().cost;
+    }
+}
+
+TEST(GeneticWithLocalSteps, finds_most_zeros_of_band_3_as_in_the_paper) {
+    const Problem problem = Problem::one_band(3);
+    const CandidateGrid grid(3);
+    Population population(problem, grid, {}, Genetic::with_local_steps(problem), Random(1, 0));
+    for (int generation = 0; generation < 3; ++generation) population.evolve();
+    EXPECT_EQ(population.best().score.zeros, 33);  // 67 % of 49
+    EXPECT_LT(population.best().score.condition, 10);
+}
+
+TEST(Population, adopts_a_better_set_as_its_best) {
+    const Problem problem = Problem::one_band(3);
+    const CandidateGrid grid(3);
+    Population source(problem, grid, {}, Genetic::with_local_steps(problem), Random(1, 0));
+    source.evolve();
+    Population target(problem, grid, {}, Genetic::of_paper(), Random(3, 0));
+    ASSERT_GT(target.best().cost, source.best().cost);
+    target.adopt(source.best().lobes);
+    EXPECT_EQ(target.best().cost, source.best().cost);
+}
+
+TEST(Population, stalls_only_after_the_generations_asked_for) {
+    const Problem problem = Problem::one_band(2);
+    const CandidateGrid grid(2);
+    Genetic settings = Genetic::with_local_steps(problem);
+    settings.stall_generations = 3;
+    Population population(problem, grid, {}, settings, Random(1, 0));
+    int generations = 0;
+    while (!population.has_stalled()) {
+        population.evolve();
+        ++generations;
+    }
+    EXPECT_EQ(population.stalled(), 3);
+    EXPECT_GE(generations, 3);
+    population.restart();
+    EXPECT_FALSE(population.has_stalled());
+}
+
+}  // namespace
+}  // namespace zonal::search
