@@ -37,8 +37,9 @@ std::string next_step(const std::filesystem::path& path, int order) {
 std::string read_bytes(const std::filesystem::path& path, int order) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw UserError(fmt::format("{}: no such table, or it cannot be read; wanted the lobes of order {}; {}",
-                                    path.string(), order, next_step(path, order)));
+        throw UserError(
+            fmt::format("{}: no such table, or it cannot be read; wanted the lobes of order {}; {}",
+                        path.string(), order, next_step(path, order)));
     }
     std::ostringstream bytes;
     bytes << file.rdbuf();
@@ -137,9 +138,10 @@ class Verifier {
         for (std::size_t d = 0; d < table_.directions.size(); ++d) {
             const Real error = table_.directions[d].squaredNorm() - 1;
             if (!(abs(error) < kUnitTolerance)) {
-                complain(fmt::format("directions[{}]", d),
-                         fmt::format("squared length 1 {} {}", error < 0 ? '-' : '+', Real(abs(error)).str(3)),
-                         "a unit direction to 1e-38");
+                complain(
+                    fmt::format("directions[{}]", d),
+                    fmt::format("squared length 1 {} {}", error < 0 ? '-' : '+', Real(abs(error)).str(3)),
+                    "a unit direction to 1e-38");
             }
         }
     }
@@ -214,7 +216,8 @@ std::string json_text(const LobeTable& table) {
     std::vector<std::string> directions, angles, conditions;
     for (const auto& direction : table.directions) {
         directions.push_back(fmt::format("    [\"{}\", \"{}\", \"{}\"]", exact::decimal_text(direction(0)),
-                                         exact::decimal_text(direction(1)), exact::decimal_text(direction(2))));
+                                         exact::decimal_text(direction(1)),
+                                         exact::decimal_text(direction(2))));
     }
     for (const auto& [theta, phi] : table.angles) {
         angles.push_back(fmt::format("    [{}, {}]", Json(theta).dump(), Json(phi).dump()));

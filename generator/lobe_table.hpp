@@ -38,11 +38,12 @@ inline constexpr double kConditionCap = 50;
 void measure_lobe_table(LobeTable& table);
 
 /// Reads a table and verifies it afresh at 50 digits. Throws `UserError` naming file, field,
-/// value and next step when the file is missing, truncated, of another order, has a duplicate or non-unit lobe,
-/// a singular band, one over `condition_cap`, or counts that its directions do not confirm.
+/// value and next step when the file is missing, truncated, of another order, has a duplicate or non-unit
+/// lobe, a singular band, one over `condition_cap`, or counts that its directions do not confirm.
 LobeTable read_lobe_table(const std::filesystem::path& path, int order, double condition_cap = kConditionCap);
 
-/// Writes under a temporary name beside `path`, then renames: a failed run leaves no half file.
+/// Writes under a temporary name beside `path`, then renames: a failed run leaves no half file. Precondition:
+/// the table is measured and no band is singular.
 void write_lobe_table(const std::filesystem::path& path, const LobeTable& table);
 
 /// The path of an order's table inside a tables folder: orderNN.json.

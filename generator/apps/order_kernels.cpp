@@ -42,8 +42,8 @@ OrderKernels build_order_kernels(int order, const std::filesystem::path& table_p
     OrderKernels result;
     result.table = read_lobe_table(path, order);
     result.table_name = is_own ? ("generator/tables" / lobe_table_name(order)).string() : path.filename().string();
-    result.kernels = kernels::build_order(
-        {order, result.table.directions, exact::factorize_order(order, result.table.directions)});
+    result.lobes = {order, result.table.directions, exact::factorize_order(order, result.table.directions)};
+    result.kernels = kernels::build_order(result.lobes);
     result.bounds = read_bounds(ZONAL_TABLES_DIR / "bounds.json", result.table);
     return result;
 }

@@ -7,6 +7,7 @@
 
 #include "emit/unit.hpp"
 #include "graph/kernel.hpp"
+#include "kernels/lobes.hpp"
 #include "lobe_table.hpp"
 
 namespace zonal {
@@ -23,6 +24,7 @@ void check_order(int order);
 struct OrderKernels {
     LobeTable table;
     std::string table_name;  ///< how a banner names the table: no path of a machine
+    kernels::LobeSet lobes;
     std::vector<graph::Kernel> kernels;
     std::map<std::string, emit::Bound> bounds;  ///< those published for this very table
 };

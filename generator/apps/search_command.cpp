@@ -49,6 +49,7 @@ struct Options {
     bool is_plain = false;
     bool stays_on_grid = false;
     int islands = 4;
+    int zero_bands = 0;
     int population = 0;
     int stall = 0;
     int elite = 2;
@@ -62,7 +63,8 @@ struct Options {
 search::AngledSet read_start(const Options& options) {
     search::AngledSet lobes;
     for (const auto& [theta, phi] : read_lobe_table(options.resume, options.order).angles) {
-        lobes.push_back({{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
+        lobes.push_back(
+            {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
     }
     return lobes;
 }
@@ -73,6 +75,7 @@ search::SearchSettings settings_of(const Options& options, const search::Problem
     settings.generations = options.generations;
     settings.seconds = options.seconds;
     settings.islands = options.islands;
+    settings.zero_bands = options.zero_bands;
     settings.leaves_grid = !options.stays_on_grid && !options.is_plain;
     settings.objective = options.objective;
     search::Genetic& genetic = settings.genetic;
@@ -100,6 +103,7 @@ std::string canonical_command(const Options& options, int generations) {
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
     if (!options.resume.empty()) command += " --resume " + table;
+    add("--zero-bands", options.zero_bands, standard.zero_bands);
     add("--islands", options.islands, standard.islands);
     add("--population", options.population, standard.population);
     add("--stall", options.stall, standard.stall);
@@ -164,10 +168,10 @@ void run(const Options& options) {
     const search::SearchResult result = search::search_lobes(problem, settings, stop_requested, observer);
     fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
     if (!result.best.score.is_allowed(options.objective)) {
-        throw UserError(fmt::format(
-            "--order {}: found no lobes of condition {:g} or less in {} generations; "
-            "raise --generations, change --seed, or drop --plain",
-            options.order, options.objective.condition_cap, result.progress.generation));
+        throw UserError(
+            fmt::format("--order {}: found no lobes of condition {:g} or less in {} generations; "
+                        "raise --generations, change --seed, or drop --plain",
+                        options.order, options.objective.condition_cap, result.progress.generation));
     }
     write_lobe_table(options.out, table_of(options, result.best, result.progress.generation));
     fmt::print("{}\n", options.out);
@@ -176,24 +180,31 @@ void run(const Options& options) {
 }  // namespace
 
 void add_search_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("search", "seek lobe directions for an order and save them as a table");
+    CLI::App* command =
+        app.add_subcommand("search", "seek lobe directions for an order and save them as a table");
     const auto options = std::make_shared<Options>();
     Options& o = *options;
     command->add_option("--order", o.order, "number of bands, 2 to 20")->required();
-    command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")->required();
+    command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
+        ->required();
     command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
     command->add_option("--generations", o.generations, "to run (default: until none improves for --stall)")
         ->check(CLI::PositiveNumber);
     command->add_option("--seconds", o.seconds, "to stop earlier")->check(CLI::PositiveNumber);
     command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
-    command->add_flag("--plain", o.is_plain, "the paper's genetic algorithm, with no local steps, on the grid");
+    command->add_flag("--plain", o.is_plain,
+                      "the paper's genetic algorithm, with no local steps, on the grid");
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
+    command->add_option("--zero-bands", o.zero_bands,
+                        "candidates lie at the zeros of bands 1 to this (default: N-1, as in the paper)")
+        ->check(CLI::Range(1, 30));
     command->add_option("--islands", o.islands, "populations that breed apart")
         ->capture_default_str()
         ->check(CLI::Range(1, 1024));
     command->add_option("--population", o.population, "of an island (default: 60, or 500 with --plain)")
         ->check(CLI::Range(4, 1000000));
-    command->add_option("--stall", o.stall, "generations without improvement (default: 10, or 50 with --plain)")
+    command
+        ->add_option("--stall", o.stall, "generations without improvement (default: 10, or 50 with --plain)")
         ->check(CLI::PositiveNumber);
     command->add_option("--elite", o.elite, "individuals that survive")
         ->capture_default_str()
@@ -205,13 +216,16 @@ void add_search_command(CLI::App& app) {
         ->check(CLI::Range(0.0, 1.0));
     command->add_option("--mutation", o.mutation, "rate of an angle (default: one over the number of angles)")
         ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--multiplication-weight", o.objective.multiplication_weight,
-                        "of a multiplication beside a nonzero")
+    command
+        ->add_option("--multiplication-weight", o.objective.multiplication_weight,
+                     "of a multiplication beside a nonzero")
         ->capture_default_str();
-    command->add_option("--condition-weight", o.objective.condition_weight,
-                        "of a doubling of the worst condition beside a nonzero")
+    command
+        ->add_option("--condition-weight", o.objective.condition_weight,
+                     "of a doubling of the worst condition beside a nonzero")
         ->capture_default_str();
-    command->add_option("--condition-cap", o.objective.condition_cap, "largest condition of a band, at most 50")
+    command
+        ->add_option("--condition-cap", o.objective.condition_cap, "largest condition of a band, at most 50")
         ->capture_default_str()
         ->check(CLI::Range(1.0, kConditionCap));
     command->callback([options] { run(*options); });

@@ -8,6 +8,7 @@
 #include "apps/order_kernels.hpp"
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
+#include "kernels/lobes.hpp"
 
 namespace zonal {
 
@@ -42,6 +43,7 @@ Json to_json(const OrderKernels& order) {
         bands.push_back({{"band", l},
                          {"entries", (2 * l + 1) * (2 * l + 1)},
                          {"zeros", order.table.zeros[l]},
+                         {"multiplications", kernels::factorization_multiplications(order.lobes.bands[l])},
                          {"cond", order.table.condition[l]}});
     Json kernels;
     for (const graph::Kernel& kernel : order.kernels) kernels[kernel.name] = to_json(kernel);
@@ -53,10 +55,10 @@ Json to_json(const OrderKernels& order) {
 }
 
 void print_table(const Json& stats) {
-    fmt::print("{:<6}{:>9}{:>8}{:>12}\n", "band", "entries", "zeros", "cond");
+    fmt::print("{:<6}{:>9}{:>8}{:>17}{:>12}\n", "band", "entries", "zeros", "multiplications", "cond");
     for (const Json& band : stats["bands"])
-        fmt::print("{:<6}{:>9}{:>8}{:>12.4g}\n", band["band"].get<int>(), band["entries"].get<int>(),
-                   band["zeros"].get<int>(), band["cond"].get<double>());
+        fmt::print("{:<6}{:>9}{:>8}{:>17}{:>12.4g}\n", band["band"].get<int>(), band["entries"].get<int>(),
+                   band["zeros"].get<int>(), band["multiplications"].get<int>(), band["cond"].get<double>());
     fmt::print("\n{:<12}{:>6}{:>6}{:>6}{:>7}   {}\n", "kernel", "mul", "add", "fma", "other",
                "of these once per rotation (mul add fma other)");
     for (const auto& [name, kernel] : stats["kernels"].items()) {

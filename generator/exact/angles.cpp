@@ -76,7 +76,8 @@ class Reader {
 
     Real number() {
         skip_blanks();
-        const std::size_t length = std::min(text_.find_first_not_of("0123456789.", place_), text_.size()) - place_;
+        const std::size_t length =
+            std::min(text_.find_first_not_of("0123456789.", place_), text_.size()) - place_;
         const std::string_view digits = text_.substr(place_, length);
         const bool has_digit = digits.find_first_not_of('.') != std::string_view::npos;
         if (!has_digit || digits.find('.') != digits.rfind('.')) fail();

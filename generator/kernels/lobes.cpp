@@ -129,6 +129,17 @@ class LobeHarmonics {
     std::map<std::pair<int, int>, Value> legendre_;
 };
 
+/// Multiplications of (Â / scale)ᵀ f.
+int multiplications_at_scale(const exact::BandFactorization& band, const Real& scale) {
+    int multiplications = 0;
+    for (int d = 0; d < band_size(band.band); ++d) {
+        std::vector<Real> column;
+        for (int m = 0; m < band_size(band.band); ++m) column.push_back(band.a_hat(m, d) / scale);
+        multiplications += graph::multiplications(column);
+    }
+    return multiplications;
+}
+
 /// A common factor taken out of a band's weights ẑ and put into the constants its outputs are multiplied by
 /// anyway: the one that leaves the fewest multiplications.
 Real cheapest_weight_scale(const exact::BandFactorization& band) {
@@ -138,12 +149,7 @@ Real cheapest_weight_scale(const exact::BandFactorization& band) {
     for (const Real& entry : band.a_hat.reshaped())
         if (entry != 0) candidates.push_back(abs(entry));
     const auto cost = [&](const Real& scale) {
-        int multiplications = 0;
-        for (int d = 0; d < band_size(l); ++d) {
-            std::vector<Real> column;
-            for (int m = 0; m < band_size(l); ++m) column.push_back(band.a_hat(m, d) / scale);
-            multiplications += graph::multiplications(column);
-        }
+        int multiplications = multiplications_at_scale(band, scale);
         for (int m = -l; m <= l; ++m) multiplications += graph::multiplications({exact::basis_scale(l, m) * scale});
         return multiplications;
     };
@@ -195,6 +201,10 @@ void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vecto
 }
 
 }  // namespace
+
+int factorization_multiplications(const exact::BandFactorization& band) {
+    return multiplications_at_scale(band, Real(1));
+}
 
 Kernel build_factorize(const LobeSet& lobes) {
     Kernel kernel;

@@ -14,6 +14,9 @@ struct LobeSet {
     std::vector<exact::BandFactorization> bands;            ///< 0 … order-1
 };
 
+/// Multiplications of the band's sparse product Âᵀ f as it is emitted: ±1 and constants of equal size folded.
+int factorization_multiplications(const exact::BandFactorization& band);
+
 /// ẑ = Âᵀ f, per band.
 graph::Kernel build_factorize(const LobeSet& lobes);
 /// f = Yᵀ ẑ, per band.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "exact/spherical_harmonics.hpp"
+#include "search/score.hpp"
 
 namespace zonal::search {
 
@@ -46,9 +47,8 @@ bool AngleModel::evaluate(const std::vector<double>& angles) {
             band.by_theta.row(d) = row.by_theta;
             band.by_phi.row(d) = row.by_phi;
         }
-        const Eigen::PartialPivLU<exact::Matrix<double>> lu(y);
-        if (!(lu.rcond() > 1e-7)) return false;
-        band.a_hat = lu.inverse();
+        band.a_hat = y.inverse();
+        if (!(band.a_hat.squaredNorm() < kSingularSquaredNorm)) return false;
     }
     return true;
 }

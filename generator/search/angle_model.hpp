@@ -8,8 +8,8 @@
 
 namespace zonal::search {
 
-/// The inverses of all bands as smooth functions of the lobes' angles (theta_0, phi_0, theta_1, phi_1, …), with
-/// their derivatives, in double. With dY = e_d g^T, dÂ = -Â dY Â = -(column d of Â) (g^T Â).
+/// The inverses of all bands as smooth functions of the lobes' angles (theta_0, phi_0, theta_1, phi_1, …),
+/// with their derivatives, in double. With dY = e_d g^T, dÂ = -Â dY Â = -(column d of Â) (g^T Â).
 class AngleModel {
   public:
     explicit AngleModel(const Problem& problem) : problem_(problem), bands_(problem.bands.size()) {}
@@ -19,7 +19,9 @@ class AngleModel {
 
     std::vector<exact::Matrix<double>> a_hats() const;
 
-    double residual(const Relation& relation) const { return relation.residual(bands_[relation.band_index].a_hat); }
+    double residual(const Relation& relation) const {
+        return relation.residual(bands_[relation.band_index].a_hat);
+    }
 
     /// Derivative of a residual by every angle.
     exact::Vector<double> residual_gradient(const Relation& relation) const;

@@ -15,8 +15,8 @@ namespace {
 const exact::Real kSameAngle{"1e-40"};
 
 int index_of(const std::vector<Angle>& angles, const exact::Real& value) {
-    const auto found =
-        std::ranges::find_if(angles, [&](const Angle& angle) { return abs(angle.value - value) < kSameAngle; });
+    const auto found = std::ranges::find_if(
+        angles, [&](const Angle& angle) { return abs(angle.value - value) < kSameAngle; });
     return found == angles.end() ? -1 : static_cast<int>(found - angles.begin());
 }
 
@@ -28,16 +28,17 @@ std::int64_t turn_key(double phi) {
 
 }  // namespace
 
-CandidateGrid::CandidateGrid(int max_band) : max_band_(max_band), profiles_(max_band + 1) {
+CandidateGrid::CandidateGrid(int max_band, int zero_bands) : max_band_(max_band), profiles_(max_band + 1) {
+    if (zero_bands == 0) zero_bands = max_band;
     pole_ = add_theta(fraction_of_pi(0, 1));
     equator_ = add_theta(fraction_of_pi(1, 2));
-    for (int l = 1; l <= max_band; ++l) {
+    for (int l = 1; l <= zero_bands; ++l) {
         for (int m = 0; m < l; ++m) {
             for (const Angle& theta : legendre_zero_angles(l, m)) add_theta(theta);
         }
     }
     // sin(m phi) and cos(m phi) together vanish at the multiples of pi/(2m).
-    for (int m = 1; m <= max_band; ++m) {
+    for (int m = 1; m <= zero_bands; ++m) {
         for (int k = 0; k < 4 * m; ++k) add_phi(fraction_of_pi(k, 2 * m));
     }
     coordinate_planes_ = {add_phi(fraction_of_pi(0, 1)), add_phi(fraction_of_pi(1, 2))};

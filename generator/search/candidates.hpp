@@ -26,13 +26,14 @@ struct Lobe {
 
 using LobeSet = std::vector<Lobe>;
 
-/// The discrete directions among which lobes are sought: theta at the zeros of the Legendre functions P_k^m and
-/// phi at the zeros of sin(m phi) and cos(m phi), for bands k = 1 … max_band and 1 <= m <= max_band.
-/// A lobe at -w is the lobe at w up to sign, so theta <= pi/2, and phi < pi on the equator.
-/// Source: Nowrouzezahrai et al., section 5.
+/// The discrete directions among which lobes are sought: theta at the zeros of the Legendre functions P_k^m
+/// and phi at the zeros of sin(m phi) and cos(m phi), for bands k = 1 … max_band and 1 <= m <= max_band. A
+/// lobe at -w is the lobe at w up to sign, so theta <= pi/2, and phi < pi on the equator. Source:
+/// Nowrouzezahrai et al., section 5.
 class CandidateGrid {
   public:
-    explicit CandidateGrid(int max_band);
+    /// Zeros of bands 1 … `zero_bands`, by default those of the bands that are evaluated, as in the paper.
+    explicit CandidateGrid(int max_band, int zero_bands = 0);
 
     /// Index of the angle, which is appended when no angle of the grid is within 1e-40 of it. So a search can
     /// start from lobes that lie off the zeros. Precondition: 0 <= theta <= pi/2, 0 <= phi < 2 pi.
@@ -70,7 +71,7 @@ class CandidateGrid {
     int max_band_;
     std::vector<Angle> thetas_, phis_;
     int pole_ = 0, equator_ = 0;
-    std::vector<int> coordinate_planes_;         // phi = 0 and pi/2
+    std::vector<int> coordinate_planes_;  // phi = 0 and pi/2
     std::vector<double> phi_values_;
     std::unordered_map<std::int64_t, int> phi_indices_;  // by phi in units of 2^-40 turns
     std::vector<std::vector<double>> profiles_;  // per band: y_l^m(theta, 0), m = 0 … l, theta after theta

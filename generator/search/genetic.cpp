@@ -1,8 +1,8 @@
 // The genetic algorithm of Nowrouzezahrai et al., section 5 (one band) and section 6 (shared lobes).
-// Plain, an individual is a vector of angles; children come from two parents by uniform crossover, or from one by
-// mutation. So read it stalls from band 7 on, since a good angle alone is worth nothing. The cure keeps the
-// method and changes the gene: crossover and mutation exchange whole lobes, and every child is improved by a
-// short annealing over swaps of one lobe (swap_annealing.hpp).
+// Plain, an individual is a vector of angles; children come from two parents by uniform crossover, or from
+// one by mutation. So read it stalls from band 7 on, since a good angle alone is worth nothing. The cure
+// keeps the method and changes the gene: crossover and mutation exchange whole lobes, and every child is
+// improved by a short annealing over swaps of one lobe (swap_annealing.hpp).
 
 #include "search/genetic.hpp"
 
@@ -127,8 +127,10 @@ void Population::mutate_angles(LobeSet& lobes) {
     const CandidateGrid& grid = *grid_;
     for (Lobe& lobe : lobes) {
         int theta = lobe.theta, phi = lobe.phi;
-        if (random_.chance(settings_.mutation_rate)) theta = random_.below(static_cast<int>(grid.thetas().size()));
-        if (random_.chance(settings_.mutation_rate)) phi = random_.below(static_cast<int>(grid.phis().size()));
+        if (random_.chance(settings_.mutation_rate))
+            theta = random_.below(static_cast<int>(grid.thetas().size()));
+        if (random_.chance(settings_.mutation_rate))
+            phi = random_.below(static_cast<int>(grid.phis().size()));
         lobe = grid.canonical(theta, phi);
     }
 }

@@ -20,7 +20,8 @@ struct Genetic {
     /// As section 5 of the paper has it.
     static Genetic of_paper();
 
-    /// Genes are lobes and every child is annealed. A generation of 60 so does more than many plain ones of 500.
+    /// Genes are lobes and every child is annealed. A generation of 60 so does more than many plain ones of
+    /// 500.
     static Genetic with_local_steps(const Problem& problem);
 };
 

@@ -7,8 +7,8 @@
 
 namespace zonal::search {
 
-/// What is worth keeping while lobes leave the grid: Â(row, column) = sign * Â(other_row, column) in one band,
-/// or Â(row, column) = 0 when `other_row` is negative.
+/// What is worth keeping while lobes leave the grid: Â(row, column) = sign * Â(other_row, column) in one
+/// band, or Â(row, column) = 0 when `other_row` is negative.
 struct Relation {
     int band_index = 0;
     int row = 0, column = 0;

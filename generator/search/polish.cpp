@@ -24,7 +24,8 @@ std::vector<Real> residuals_of(const Problem& problem, const AngledSet& lobes, c
         a_hats.push_back(lu.inverse());
     }
     std::vector<Real> residuals;
-    for (const Relation& relation : pattern) residuals.push_back(relation.residual(a_hats[relation.band_index]));
+    for (const Relation& relation : pattern)
+        residuals.push_back(relation.residual(a_hats[relation.band_index]));
     return residuals;
 }
 

@@ -9,9 +9,9 @@
 
 namespace zonal::search {
 
-/// Moves those angles whose `is_free` flag is set (theta_0, phi_0, theta_1, …) as little as possible until every
-/// relation of the pattern holds to 1e-45. Nothing when that does not happen within some twenty steps: then the
-/// pattern was an illusion of double precision.
+/// Moves those angles whose `is_free` flag is set (theta_0, phi_0, theta_1, …) as little as possible until
+/// every relation of the pattern holds to 1e-45. Nothing when that does not happen within some twenty steps:
+/// then the pattern was an illusion of double precision.
 std::optional<AngledSet> polish(const Problem& problem, const AngledSet& lobes, const Pattern& pattern,
                                 const std::vector<bool>& is_free);
 

@@ -1,8 +1,9 @@
-// Refinement off the grid. The zero pattern of a good set can leave continuous freedom; along it another entry
-// may reach zero, or the condition may fall. NLopt's LBFGS minimises over the angles
-//   sum of (relations to keep)^2 + target^2   or   weight * sum of (relations to keep)^2 + sum of log2 ||Â_l||_F,
-// with exact gradients; `polish` then confirms the pattern at 50 digits or throws it out. Lobes at the pole stay
-// there, and an angle that was not moved keeps its closed form.
+// Refinement off the grid. The zero pattern of a good set can leave continuous freedom; along it another
+// entry may reach zero, or the condition may fall. NLopt's LBFGS minimises over the angles
+//   sum of (relations to keep)^2 + target^2   or   weight * sum of (relations to keep)^2 + sum of log2
+//   ||Â_l||_F,
+// with exact gradients; `polish` then confirms the pattern at 50 digits or throws it out. Lobes at the pole
+// stay there, and an angle that was not moved keeps its closed form.
 
 #include "search/refine.hpp"
 
@@ -100,7 +101,8 @@ class Refiner {
     bool has_freedom(const Pattern& pattern) {
         model_.evaluate(angles_);
         exact::Matrix<double> jacobian(pattern.size(), angles_.size());
-        for (std::size_t r = 0; r < pattern.size(); ++r) jacobian.row(r) = model_.residual_gradient(pattern[r]);
+        for (std::size_t r = 0; r < pattern.size(); ++r)
+            jacobian.row(r) = model_.residual_gradient(pattern[r]);
         int movable = 0;
         for (int i = 0; i < static_cast<int>(angles_.size()); ++i) {
             movable += is_movable(i);
@@ -134,7 +136,8 @@ class Refiner {
     /// from the present ones.
     std::optional<std::vector<double>> minimise(const Pattern& pattern, double pattern_weight,
                                                 double norm_weight) {
-        const auto value_and_gradient = [&](const std::vector<double>& angles, std::vector<double>& gradient) {
+        const auto value_and_gradient = [&](const std::vector<double>& angles,
+                                            std::vector<double>& gradient) {
             std::vector<double> slope(angles.size(), 0.0);
             double value = 0;
             if (!model_.evaluate(angles)) {
@@ -150,7 +153,8 @@ class Refiner {
                 if (norm_weight > 0) value += norm_weight * model_.log_norm(norm_weight, slope.data());
             }
             if (!gradient.empty()) {
-                for (int i = 0; i < static_cast<int>(slope.size()); ++i) gradient[i] = is_movable(i) ? slope[i] : 0;
+                for (int i = 0; i < static_cast<int>(slope.size()); ++i)
+                    gradient[i] = is_movable(i) ? slope[i] : 0;
             }
             return value;
         };

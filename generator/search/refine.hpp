@@ -17,8 +17,8 @@ struct Solution {
 Solution confirm(const Problem& problem, const AngledSet& lobes);
 
 /// Leaves the grid: walks along the freedom that the zeros of Â leave to the angles, to further zeros and to
-/// better conditions, as long as the 50-digit cost falls. Returns the start when nothing is gained. Stops early
-/// when `is_stopped()`.
+/// better conditions, as long as the 50-digit cost falls. Returns the start when nothing is gained. Stops
+/// early when `is_stopped()`.
 Solution refine(const Problem& problem, const Objective& objective, const Solution& start,
                 const std::function<bool()>& is_stopped);
 

@@ -41,8 +41,9 @@ BandCost band_cost(const double* a_hat, int size) {
 }
 
 BandCost band_cost(const exact::Matrix<exact::Real>& a_hat) {
-    return count(a_hat.data(), static_cast<int>(a_hat.rows()), exact::kZeroThreshold,
-                 [](const exact::Real& a, const exact::Real& b) { return abs(a - b) < exact::kZeroThreshold; });
+    return count(
+        a_hat.data(), static_cast<int>(a_hat.rows()), exact::kZeroThreshold,
+        [](const exact::Real& a, const exact::Real& b) { return abs(a - b) < exact::kZeroThreshold; });
 }
 
 double Score::cost(const Objective& objective) const {

@@ -10,8 +10,8 @@
 
 namespace zonal::search {
 
-/// Cost of one band's Â. The emitted code computes z_d = sum over m of Â(m, d) f_m, lobe by lobe, and adds the
-/// entries of a column that share |value| before it multiplies. So a column has as many instructions as
+/// Cost of one band's Â. The emitted code computes z_d = sum over m of Â(m, d) f_m, lobe by lobe, and adds
+/// the entries of a column that share |value| before it multiplies. So a column has as many instructions as
 /// nonzeros and as many multiplications as distinct |values|. One common scale of the band is free, and makes
 /// the commonest value 1.
 struct BandCost {
@@ -25,8 +25,8 @@ struct Objective {
     double condition_weight = 0.75;       ///< of a doubling of the worst cond_2: 50 against 20 is one nonzero
     double condition_cap = 50;            ///< on cond_2 of every band
 
-    /// Band 1 rotates as a vector and its lobes are seldom used (the paper does not count them), so its nonzeros
-    /// weigh no more than multiplications.
+    /// Band 1 rotates as a vector and its lobes are seldom used (the paper does not count them), so its
+    /// nonzeros weigh no more than multiplications.
     double cost_of_band(int l, const BandCost& band) const {
         const double nonzero_weight = l >= 2 ? 1.0 : multiplication_weight;
         return nonzero_weight * band.nonzeros + multiplication_weight * band.multiplications;
@@ -38,6 +38,9 @@ struct Objective {
 BandCost band_cost(const double* a_hat, int size);
 inline constexpr double kZeroInDouble = 1e-9;
 
+/// A band whose ||Â_l||_F^2 in double is not below this is singular. (The ideal is 4 pi.)
+inline constexpr double kSingularSquaredNorm = 1e10;
+
 /// The same at 50 digits, with entries zero and |values| equal below `exact::kZeroThreshold`.
 BandCost band_cost(const exact::Matrix<exact::Real>& a_hat);
 
@@ -46,7 +49,7 @@ struct Score {
     int zeros = 0;     ///< of all bands of the problem
     int nonzeros = 0;  ///< of bands >= 2
     int multiplications = 0;
-    std::vector<std::pair<int, BandCost>> bands;  ///< each band and its cost
+    std::vector<std::pair<int, BandCost>> bands;                 ///< each band and its cost
     double condition = std::numeric_limits<double>::infinity();  ///< largest cond_2 of a band
     double norm = std::numeric_limits<double>::infinity();       ///< largest ||Â_l||_2
 

@@ -1,6 +1,6 @@
-// The whole search: islands breed in parallel, one generation at a time; each confirms and refines those of its
-// best sets that it has not met before; every few generations the best of an island moves on to the next; an
-// island that has stalled begins anew. Nothing depends on time but when the search ends.
+// The whole search: islands breed in parallel, one generation at a time; each confirms and refines those of
+// its best sets that it has not met before; every few generations the best of an island moves on to the next;
+// an island that has stalled begins anew. Nothing depends on time but when the search ends.
 
 #include "search/search.hpp"
 
@@ -9,13 +9,14 @@
 #include <chrono>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace zonal::search {
 namespace {
 
 /// A set this much dearer than the best may still overtake it off the grid.
-constexpr double kWorthRefining = 6;
-constexpr int kRefinedInAGeneration = 2;
+constexpr double kWorthRefining = 12;
+constexpr int kRefinedInAGeneration = 6;
 
 bool is_better(const Solution& a, const Solution& b, const Objective& objective) {
     const double cost_a = a.score.cost(objective), cost_b = b.score.cost(objective);
@@ -43,6 +44,9 @@ class Island {
 
     void receive(const LobeSet& lobes) { population_.adopt(lobes); }
 
+    /// The sets that left the grid since the last call.
+    std::vector<AngledSet> take_refined() { return std::exchange(refined_, {}); }
+
     const Population& population() const { return population_; }
     const Solution& best() const { return best_; }
 
@@ -58,7 +62,9 @@ class Island {
             ++count;
             Solution solution = confirm(*problem_, with_angles(*grid_, individual.lobes));
             if (settings_->leaves_grid) {
+                const double cost_on_grid = solution.score.cost(settings_->objective);
                 solution = refine(*problem_, settings_->objective, solution, [&] { return stop.load(); });
+                if (solution.score.cost(settings_->objective) < cost_on_grid) refined_.push_back(solution.lobes);
             }
             if (is_better(solution, best_, settings_->objective)) best_ = solution;
         }
@@ -69,6 +75,7 @@ class Island {
     const SearchSettings* settings_;
     Population population_;
     std::set<long long> confirmed_costs_;
+    std::vector<AngledSet> refined_;
     Solution best_;
 };
 
@@ -96,10 +103,10 @@ LobeSet put_on_grid(CandidateGrid& grid, const AngledSet& set) {
 
 }  // namespace
 
-SearchResult search_lobes(const Problem& problem, const SearchSettings& settings, const std::atomic<bool>& stop,
-                          const SearchObserver& observer) {
+SearchResult search_lobes(const Problem& problem, const SearchSettings& settings,
+                          const std::atomic<bool>& stop, const SearchObserver& observer) {
     const auto start_time = std::chrono::steady_clock::now();
-    CandidateGrid grid(problem.highest_band());
+    CandidateGrid grid(problem.highest_band(), settings.zero_bands);
     SearchResult result;
     std::optional<LobeSet> start;
     if (settings.start) {
@@ -114,6 +121,10 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
     int stalled = 0;
     while (true) {
         tbb::parallel_for(0, settings.islands, [&](int i) { islands[i].step(stop); });
+        // One after another, so that the grid grows in the same way every time.
+        for (Island& island : islands) {
+            if (!getenv("NOFB")) for (const AngledSet& set : island.take_refined()) island.receive(put_on_grid(grid, set));
+        }
         ++progress.generation;
         ++stalled;
         progress.evaluations = 0;

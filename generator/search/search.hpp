@@ -17,6 +17,7 @@ struct SearchSettings {
     double seconds = 0;   ///< stops earlier; 0: no limit
     int islands = 4;      ///< fixed, so that the result does not depend on the machine's cores
     int generations_between_exchanges = 10;
+    int zero_bands = 0;       ///< whose zeros are candidates, 1 … zero_bands; 0: as many as are sought
     bool leaves_grid = true;  ///< refines the best sets off the grid
     Objective objective;
     Genetic genetic;
@@ -44,10 +45,10 @@ struct SearchResult {
     Progress progress;
 };
 
-/// Sparse lobes for the bands of a problem, by genetic algorithms on islands that exchange their best. The same
-/// settings and number of generations give the same result, whatever the timing of threads.
-/// `stop`, once true, ends the search after the present generation.
-SearchResult search_lobes(const Problem& problem, const SearchSettings& settings, const std::atomic<bool>& stop,
-                          const SearchObserver& observer = {});
+/// Sparse lobes for the bands of a problem, by genetic algorithms on islands that exchange their best. The
+/// same settings and number of generations give the same result, whatever the timing of threads. `stop`, once
+/// true, ends the search after the present generation.
+SearchResult search_lobes(const Problem& problem, const SearchSettings& settings,
+                          const std::atomic<bool>& stop, const SearchObserver& observer = {});
 
 }  // namespace zonal::search

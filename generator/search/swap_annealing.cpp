@@ -1,7 +1,7 @@
 // Local search over sets of lobes: swap one lobe, judge by the inverse updated by rank one, accept by
-// temperature (Metropolis). Every swap is drawn to keep the structure that makes zeros: the same theta, the same
-// phi, an angle of another lobe, the mirror image of another lobe; or, for shared lobes, another position, since
-// band l sees only the first 2l+1.
+// temperature (Metropolis). Every swap is drawn to keep the structure that makes zeros: the same theta, the
+// same phi, an angle of another lobe, the mirror image of another lobe; or, for shared lobes, another
+// position, since band l sees only the first 2l+1.
 
 #include "search/swap_annealing.hpp"
 
@@ -17,8 +17,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TrackedInverses::TrackedInverses(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
-                                 double norm_weight)
+TrackedInverses::TrackedInverses(const Problem& problem, const CandidateGrid& grid,
+                                 const Objective& objective, double norm_weight)
     : grid_(&grid), objective_(objective), norm_weight_(norm_weight) {
     for (const int l : problem.bands) {
         Band band;
@@ -43,16 +43,16 @@ bool TrackedInverses::invert_afresh() {
     for (Band& band : bands_) {
         exact::Matrix<double> columns(band.size, band.size);
         for (int d = 0; d < band.size; ++d) grid_->evaluate(band.l, lobes_[d], columns.col(d).data());
-        const Eigen::FullPivLU<exact::Matrix<double>> lu(columns.transpose());
-        if (lu.rcond() < 1e-7) return false;
-        band.a_hat = lu.inverse();
+        band.a_hat = columns.transpose().inverse();
+        if (!(band.a_hat.squaredNorm() < kSingularSquaredNorm)) return false;
         band.energy = band_energy(band, band.a_hat, kNever);
         energy_ += band.energy;
     }
     return true;
 }
 
-double TrackedInverses::band_energy(const Band& band, const exact::Matrix<double>& a_hat, double limit) const {
+double TrackedInverses::band_energy(const Band& band, const exact::Matrix<double>& a_hat,
+                                    double limit) const {
     // ||Y_l||_F = (2l+1) / sqrt(4 pi) for every set of directions, by the addition theorem.
     const double norm_energy = 0.5 * norm_weight_ * std::log2(a_hat.squaredNorm() / (4 * M_PI));
     BandCost cost;
@@ -135,14 +135,22 @@ Lobe draw_replacement(const CandidateGrid& grid, const LobeSet& lobes, int posit
     const Lobe old = lobes[position];
     const Lobe other = lobes[random.below(static_cast<int>(lobes.size()))];
     switch (random.below(8)) {
-        case 0: return grid.random(random);
-        case 1: return grid.random_on_great_circle(random);
-        case 2: return grid.canonical(old.theta, random.below(static_cast<int>(grid.phis().size())));
-        case 3: return grid.canonical(random.below(static_cast<int>(grid.thetas().size())), old.phi);
-        case 4: return grid.canonical(other.theta, old.phi);
-        case 5: return grid.canonical(old.theta, other.phi);
-        case 6: return grid.random_image(old, random);
-        default: return grid.random_image(other, random);
+        case 0:
+            return grid.random(random);
+        case 1:
+            return grid.random_on_great_circle(random);
+        case 2:
+            return grid.canonical(old.theta, random.below(static_cast<int>(grid.phis().size())));
+        case 3:
+            return grid.canonical(random.below(static_cast<int>(grid.thetas().size())), old.phi);
+        case 4:
+            return grid.canonical(other.theta, old.phi);
+        case 5:
+            return grid.canonical(old.theta, other.phi);
+        case 6:
+            return grid.random_image(old, random);
+        default:
+            return grid.random_image(other, random);
     }
 }
 
@@ -155,7 +163,8 @@ LobeSet anneal_by_swaps(const Problem& problem, const CandidateGrid& grid, const
     LobeSet best = lobes;
     double best_energy = state.energy();
     double temperature = settings.start_temperature;
-    const double cooling = std::pow(settings.end_temperature / settings.start_temperature, 1.0 / settings.moves);
+    const double cooling =
+        std::pow(settings.end_temperature / settings.start_temperature, 1.0 / settings.moves);
     const bool is_shared = problem.bands.size() > 1;
     for (int move = 0; move < settings.moves; ++move, temperature *= cooling) {
         const double limit = state.energy() - temperature * std::log(1 - random.uniform());
@@ -166,7 +175,8 @@ LobeSet anneal_by_swaps(const Problem& problem, const CandidateGrid& grid, const
             if (other == position) continue;
             energy = state.try_exchange(std::min(position, other), std::max(position, other), limit);
         } else {
-            energy = state.try_replace(position, draw_replacement(grid, state.lobes(), position, random), limit);
+            energy =
+                state.try_replace(position, draw_replacement(grid, state.lobes(), position, random), limit);
         }
         if (!(energy <= limit)) continue;
         state.accept();

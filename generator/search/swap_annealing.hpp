@@ -14,9 +14,9 @@ struct Annealing {
 };
 
 /// The inverses Â_l of all bands of a problem, kept up to date while one lobe after another is replaced.
-/// Replacing row d of Y by r is a rank-one change: with w = r Â, column d of the inverse becomes Â_d / w_d, and
-/// every other column j loses w_j times that (Sherman and Morrison). Errors grow by 1/|w_d|, so small pivots are
-/// refused and the inverses are computed afresh now and then.
+/// Replacing row d of Y by r is a rank-one change: with w = r Â, column d of the inverse becomes Â_d / w_d,
+/// and every other column j loses w_j times that (Sherman and Morrison). Errors grow by 1/|w_d|, so small
+/// pivots are refused and the inverses are computed afresh now and then.
 class TrackedInverses {
   public:
     TrackedInverses(const Problem& problem, const CandidateGrid& grid, const Objective& objective,

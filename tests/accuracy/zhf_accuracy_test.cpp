@@ -27,8 +27,10 @@ double published_bound(int order, const std::string& kernel, bool is_float) {
     const std::string text = read_header(order);
     std::smatch match;
     if (!std::regex_search(text, match,
-                           std::regex(kernel + R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\))")))
+                           std::regex(kernel + R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\))"))) {
         ADD_FAILURE() << "order " << order << " publishes no bound for " << kernel;
+        return 0;
+    }
     return std::stod(match[is_float ? 1 : 2]);
 }
 

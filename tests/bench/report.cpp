@@ -1,1 +1,237 @@
-int main(){}
+// Error beside time for every kernel of the orders that are compiled in, with the counts that `zonal-gen stats`
+// gives where it is told to: what the main job prints and README shows.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "support/accuracy.hpp"
+#include "support/kernels.hpp"
+
+namespace zonal {
+namespace {
+
+constexpr int kVectors = 256;  // in cache: at N = 6 and double, 256 vectors, results and rotations take 166 KiB
+constexpr int kRotations = 10000;
+constexpr const char* kBaseline = "memcpy";
+
+const std::vector<std::string> kKernels{"factorize", "expand", "resample", "lobes", "rotate_zhf"};
+
+/// The vectors one benchmark works on: a rotation of its own for each, plain arrays.
+template <int N, class T>
+struct Workload {
+    std::vector<T> rotations, in, out;
+
+    Workload() : in(kVectors * N * N), out(kVectors * std::max(N * N, 3 * (2 * N - 1))) {
+        std::mt19937_64 random(1);
+        for (int k = 0; k < kVectors; ++k)
+            for (const double entry : cases::random_rotation(random)) rotations.push_back(static_cast<T>(entry));
+        std::normal_distribution<double> normal;
+        for (T& value : in) value = static_cast<T>(normal(random));
+    }
+};
+
+/// Runs one kernel on vector k of the workload.
+template <int N, class T>
+void run_kernel(const std::string& name, Workload<N, T>& work, int k) {
+    const T* R = work.rotations.data() + 9 * k;
+    const T* in = work.in.data() + N * N * k;
+    T* out = work.out.data() + N * N * k;
+    if (name == "factorize") Order<N>::factorize(in, out);
+    if (name == "expand") Order<N>::expand(in, out);
+    if (name == "resample") Order<N>::resample(in, out);
+    if (name == "lobes") Order<N>::lobes(R, work.out.data() + 3 * (2 * N - 1) * k);
+    if (name == "rotate_zhf") Order<N>::rotate_zhf(R, in, out);
+    if (name == kBaseline) std::memcpy(out, in, N * N * sizeof(T));
+}
+
+template <class T>
+const char* type_name() {
+    return std::is_same_v<T, float> ? "float" : "double";
+}
+
+std::string benchmark_name(int order, const std::string& kernel, const char* type) {
+    return fmt::format("{}/{}/{}", order, kernel, type);
+}
+
+template <int N, class T>
+void register_benchmarks() {
+    std::vector<std::string> names = kKernels;
+    names.push_back(kBaseline);
+    for (const std::string& name : names)
+        benchmark::RegisterBenchmark(benchmark_name(N, name, type_name<T>()).c_str(), [name](benchmark::State& state) {
+            Workload<N, T> work;
+            for (auto iteration : state) {
+                for (int k = 0; k < kVectors; ++k) run_kernel<N, T>(name, work, k);
+                benchmark::ClobberMemory();
+            }
+        });
+}
+
+/// Largest error of each kernel against the oracle, relative to the input's norm.
+template <int N, class T>
+std::map<std::string, double> measure_errors() {
+    using oracle::Real;
+    std::map<std::string, double> worst;
+    const auto note = [&](const std::string& kernel, double error) { worst[kernel] = std::max(worst[kernel], error); };
+    const auto rotate = [](const T* R, const T* f, T* out) { Order<N>::rotate_zhf(R, f, out); };
+    note("rotate_zhf", accuracy::worst_error<T>(N, kRotations, 1, rotate).beyond_excused);
+
+    constexpr int kLobes = 2 * N - 1;
+    const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double still[3 * kLobes];
+    Order<N>::lobes(identity, still);
+    std::vector<std::vector<Real>> basis_at_lobe;
+    for (int d = 0; d < kLobes; ++d)
+        basis_at_lobe.push_back(oracle::basis(N, {still[3 * d], still[3 * d + 1], still[3 * d + 2]}));
+    const auto relative = [](const std::vector<Real>& a, const T* b, const T* input) {
+        Real difference = 0, norm = 0;
+        for (int i = 0; i < N * N; ++i) {
+            difference += (a[i] - b[i]) * (a[i] - b[i]);
+            norm += static_cast<Real>(input[i]) * input[i];
+        }
+        return static_cast<double>(std::sqrt(difference / norm));
+    };
+    // sum over bands and lobes of z_ld y_l(ω_d), or its transpose
+    const auto expand_exactly = [&](const T* z) {
+        std::vector<Real> f(N * N, 0);
+        for (int l = 0; l < N; ++l)
+            for (int d = 0; d < 2 * l + 1; ++d)
+                for (int i = l * l; i < (l + 1) * (l + 1); ++i) f[i] += basis_at_lobe[d][i] * z[l * l + d];
+        return f;
+    };
+    std::mt19937_64 random(2);
+    for (int k = 0; k < kRotations; ++k) {
+        const std::vector<double> signal = cases::random_signal(N, random);
+        const std::vector<T> f(signal.begin(), signal.end());
+        T out[N * N], samples[N * N], directions[3 * kLobes], r[9];
+        Order<N>::factorize(f.data(), out);
+        const std::vector<Real> back = expand_exactly(out);
+        note("factorize", relative(back, f.data(), f.data()));
+        Order<N>::expand(f.data(), out);
+        note("expand", relative(expand_exactly(f.data()), out, f.data()));
+        for (int l = 0; l < N; ++l) {
+            for (int d = 0; d < 2 * l + 1; ++d) {
+                Real sample = 0;
+                for (int i = l * l; i < (l + 1) * (l + 1); ++i) sample += basis_at_lobe[d][i] * f[i];
+                samples[l * l + d] = static_cast<T>(sample);
+            }
+        }
+        Order<N>::resample(samples, out);
+        note("resample", relative({f.begin(), f.end()}, out, f.data()));
+        const cases::Matrix rotation = cases::random_rotation(random);
+        std::copy(rotation.begin(), rotation.end(), r);
+        Order<N>::lobes(r, directions);
+        for (int d = 0; d < kLobes; ++d) {
+            Real difference = 0;
+            for (int i = 0; i < 3; ++i) {
+                Real exact = 0;
+                for (int j = 0; j < 3; ++j) exact += static_cast<Real>(r[3 * i + j]) * still[3 * d + j];
+                difference += (exact - directions[3 * d + i]) * (exact - directions[3 * d + i]);
+            }
+            note("lobes", static_cast<double>(std::sqrt(difference)));
+        }
+    }
+    return worst;
+}
+
+/// Keeps every median instead of printing it.
+class Collector : public benchmark::BenchmarkReporter {
+  public:
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs)
+            if (run.run_type == Run::RT_Aggregate && run.aggregate_name == "median")
+                nanoseconds_[run.run_name.function_name] = run.GetAdjustedRealTime() / kVectors;
+    }
+    double nanoseconds(const std::string& name) const { return nanoseconds_.at(name); }
+
+  private:
+    std::map<std::string, double> nanoseconds_;
+};
+
+void print_stats(const std::string& path) {
+    std::ifstream stream(path);
+    if (!stream) throw std::runtime_error(path + ": cannot be read; write it with: zonal-gen stats --order N --json");
+    const auto stats = nlohmann::json::parse(stream);
+    fmt::print("\nOrder {} (degree {}), {} nonzeros in bands of l >= 2\n\n", stats["order"].get<int>(),
+               stats["order"].get<int>() - 1, stats["nonzeros"].get<int>());
+    fmt::print("| band | entries | zeros | multiplications | cond |\n|---|---|---|---|---|\n");
+    for (const auto& band : stats["bands"])
+        fmt::print("| {} | {} | {} | {} | {:.3g} |\n", band["band"].get<int>(), band["entries"].get<int>(),
+                   band["zeros"].get<int>(), band["multiplications"].get<int>(), band["cond"].get<double>());
+    fmt::print("\n| kernel | mul | add | fma | other |\n|---|---|---|---|---|\n");
+    for (const auto& [name, kernel] : stats["kernels"].items())
+        fmt::print("| {} | {} | {} | {} | {} |\n", name, kernel["mul"].get<int>(), kernel["add"].get<int>(),
+                   kernel["fma"].get<int>(), kernel["other"].get<int>());
+}
+
+template <int N>
+void print_order(const Collector& times) {
+    const auto single = measure_errors<N, float>();
+    const auto twice = measure_errors<N, double>();
+    const auto ns = [&](const std::string& kernel, const char* type) {
+        return times.nanoseconds(benchmark_name(N, kernel, type));
+    };
+    for (const std::string& kernel : kKernels)
+        fmt::print("| {} | {} | {:.1e} | {:.1f} | {:.1f} | {:.1e} | {:.1f} |\n", N, kernel, single.at(kernel),
+                   ns(kernel, "float"), ns(kernel, "float") / ns(kBaseline, "float"), twice.at(kernel),
+                   ns(kernel, "double"));
+}
+
+void run(const std::string& stats, double seconds) {
+    if (!stats.empty()) print_stats(stats);
+#define ZONAL_REGISTER(N)              \
+    register_benchmarks<N, float>();   \
+    register_benchmarks<N, double>();
+    ZONAL_FOR_EACH_ORDER(ZONAL_REGISTER)
+#undef ZONAL_REGISTER
+    // Interleaved, so that a machine whose speed drifts does not favour one kernel.
+    std::vector<std::string> arguments{"zonal-report", "--benchmark_enable_random_interleaving=true",
+                                       "--benchmark_repetitions=9", fmt::format("--benchmark_min_time={}", seconds)};
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    int argc = static_cast<int>(argv.size());
+    benchmark::Initialize(&argc, argv.data());
+    Collector times;
+    benchmark::RunSpecifiedBenchmarks(&times);
+
+#if defined(__FMA__)
+    const char* fused = "with fused multiply-add";
+#else
+    const char* fused = "without fused multiply-add";
+#endif
+    fmt::print("\nLargest error over {} random rotations (rotate_zhf: and the hard cases), relative to the input.\n"
+               "Time of one call, one core, {}: {} vectors in cache, each with a rotation of its own; median of 9\n"
+               "interleaved runs. The ratio is to a memcpy of one vector.\n\n",
+               kRotations, fused, kVectors);
+    fmt::print("| N | kernel | error, float | ns, float | / memcpy | error, double | ns, double |\n"
+               "|---|---|---|---|---|---|---|\n");
+#define ZONAL_PRINT(N) print_order<N>(times);
+    ZONAL_FOR_EACH_ORDER(ZONAL_PRINT)
+#undef ZONAL_PRINT
+}
+
+}  // namespace
+}  // namespace zonal
+
+int main(int argc, char** argv) {
+    CLI::App app{"Prints error beside time for every kernel of the orders that are compiled in."};
+    std::string stats;
+    double seconds = 0.01;
+    app.add_option("--stats", stats, "what `zonal-gen stats --json` printed, to show counts as well");
+    app.add_option("--seconds", seconds, "shortest time of one run")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    try {
+        zonal::run(stats, seconds);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -16,12 +17,12 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-struct Run {
+struct Outcome {
     int status = 0;
     std::string output;  ///< standard output and error
 };
 
-Run run(const std::string& command) {
+Outcome run(const std::string& command) {
     const fs::path log = fs::path(testing::TempDir()) / fmt::format("zonal_log_{}", getpid());
     const int status = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
     std::ifstream stream(log);
@@ -30,7 +31,7 @@ Run run(const std::string& command) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str()};
 }
 
-Run zonal_gen(const std::string& arguments) { return run(fmt::format("'{}' {}", ZONAL_GEN, arguments)); }
+Outcome zonal_gen(const std::string& arguments) { return run(fmt::format("'{}' {}", ZONAL_GEN, arguments)); }
 
 std::string read(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -78,20 +79,20 @@ TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
 
 TEST(Emit, an_order_out_of_range_is_named) {
     for (const int order : {0, 1, 21}) {
-        const Run result = zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
+        const Outcome result = zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
         EXPECT_EQ(result.status, 1);
         EXPECT_THAT(result.output, AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("2 … 20")));
     }
 }
 
 TEST(Emit, an_unknown_language_is_named_with_the_known_ones) {
-    const Run result = zonal_gen("emit --order 4 --language cobol");
+    const Outcome result = zonal_gen("emit --order 4 --language cobol");
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("cobol"), HasSubstr("cpp")));
 }
 
 TEST(Emit, a_missing_table_is_named_with_the_next_step) {
-    const Run result = zonal_gen("emit --order 4 --language cpp --table /nowhere/lobes.json");
+    const Outcome result = zonal_gen("emit --order 4 --language cpp --table /nowhere/lobes.json");
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("/nowhere/lobes.json"), HasSubstr("zonal-gen search")));
 }
@@ -99,7 +100,7 @@ TEST(Emit, a_missing_table_is_named_with_the_next_step) {
 TEST(Emit, a_folder_that_cannot_be_written_is_named_and_gets_no_half_file) {
     const fs::path folder = fresh_folder("blocked");
     std::ofstream(folder / "zonal") << "a file where a folder is wanted";
-    const Run result = zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", folder.string()));
+    const Outcome result = zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", folder.string()));
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr(folder.string()), HasSubstr("cannot write")));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
@@ -112,20 +113,20 @@ fs::path copy_of_generated(const std::string& name) {
     return folder;
 }
 
-Run check_generated(const fs::path& folder, const std::string& option = "") {
+Outcome check_generated(const fs::path& folder, const std::string& option = "") {
     return run(fmt::format("bash '{}/cmake/check_generated.sh' {} '{}' '{}'", ZONAL_SOURCE_DIR, option, ZONAL_GEN,
                            folder.string()));
 }
 
 TEST(CheckGenerated, the_committed_code_is_what_the_generator_writes) {
-    const Run result = check_generated(fs::path(ZONAL_SOURCE_DIR) / "generated");
+    const Outcome result = check_generated(fs::path(ZONAL_SOURCE_DIR) / "generated");
     EXPECT_EQ(result.status, 0) << result.output;
 }
 
 TEST(CheckGenerated, a_file_edited_by_hand_fails_with_the_difference_and_the_accepting_command) {
     const fs::path folder = copy_of_generated("edited");
     std::ofstream(folder / "cpp/zonal/order04.hpp", std::ios::app) << "// by hand\n";
-    const Run result = check_generated(folder);
+    const Outcome result = check_generated(folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("// by hand"), HasSubstr("--accept")));
 }
@@ -133,7 +134,7 @@ TEST(CheckGenerated, a_file_edited_by_hand_fails_with_the_difference_and_the_acc
 TEST(CheckGenerated, a_missing_file_fails) {
     const fs::path folder = copy_of_generated("missing");
     fs::remove(folder / "cpp/zonal/order05.hpp");
-    const Run result = check_generated(folder);
+    const Outcome result = check_generated(folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("order05.hpp"), HasSubstr("list of files differs")));
 }
@@ -141,7 +142,7 @@ TEST(CheckGenerated, a_missing_file_fails) {
 TEST(CheckGenerated, an_orphaned_file_fails) {
     const fs::path folder = copy_of_generated("orphaned");
     std::ofstream(folder / "cpp/zonal/order99.hpp") << "// nobody writes this\n";
-    const Run result = check_generated(folder);
+    const Outcome result = check_generated(folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("order99.hpp"), HasSubstr("list of files differs")));
 }

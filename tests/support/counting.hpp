@@ -4,14 +4,14 @@
 
 namespace zonal {
 
+struct Tally {
+    int mul = 0, add = 0, fma = 0, other = 0;
+};
+
 /// A number that counts the operations done with it. A minus sign alone is none (see graph/counts.hpp).
 struct Counting {
     double value = 0;
 
-    struct Tally {
-        int mul = 0, add = 0, fma = 0, other = 0;
-        bool operator==(const Tally&) const = default;
-    };
     static inline Tally tally;
 
     Counting() = default;

@@ -1,10 +1,10 @@
-#include "exact/angles.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <stdexcept>
+
+#include "exact/angles.hpp"
 
 namespace zonal::exact {
 namespace {

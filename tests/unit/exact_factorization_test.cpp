@@ -1,10 +1,9 @@
-#include "exact/factorization.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "exact/angles.hpp"
+#include "exact/factorization.hpp"
 #include "exact/spherical_harmonics.hpp"
 
 namespace zonal::exact {
@@ -53,7 +52,8 @@ TEST(Factorization, bands_of_an_order_use_the_first_lobes) {
     ASSERT_EQ(bands.size(), 4);
     for (int l = 0; l < 4; ++l) {
         EXPECT_EQ(bands[l].band, l);
-        EXPECT_EQ(bands[l].a_hat, factorize_band(l, {directions.begin(), directions.begin() + 2 * l + 1}).a_hat);
+        EXPECT_EQ(bands[l].a_hat,
+                  factorize_band(l, {directions.begin(), directions.begin() + 2 * l + 1}).a_hat);
     }
 }
 

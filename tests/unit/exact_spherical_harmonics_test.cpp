@@ -1,6 +1,6 @@
-#include "exact/spherical_harmonics.hpp"
-
 #include <gtest/gtest.h>
+
+#include "exact/spherical_harmonics.hpp"
 
 namespace zonal::exact {
 namespace {

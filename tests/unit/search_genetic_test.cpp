@@ -1,6 +1,6 @@
-#include "search/genetic.hpp"
-
 #include <gtest/gtest.h>
+
+#include "search/genetic.hpp"
 
 namespace zonal::search {
 namespace {

@@ -26,6 +26,7 @@ TEST(Search, same_seed_and_generations_give_the_same_lobes) {
     const Problem problem = Problem::shared(5);
     SearchSettings settings = settings_for(problem, 6);
     settings.genetic.population = 10;
+    settings.genetic.local_step.moves = 400;
     settings.generations_between_exchanges = 2;
     const SearchResult first = search_lobes(problem, settings, kNoStop);
     const SearchResult second = search_lobes(problem, settings, kNoStop);
@@ -96,8 +97,9 @@ TEST(ProgressText, tells_what_a_waiting_person_wants) {
     progress.best.zeros = 49;
     progress.best.multiplications = 21;
     progress.best.condition = 3.922;
-    EXPECT_EQ(progress_text(progress),
-              "generation 12/40: 28 nonzeros (49 zeros), 21 multiplications, cond 3.92; 500k/s, 6 s, 14 s left");
+    EXPECT_EQ(
+        progress_text(progress),
+        "generation 12/40: 28 nonzeros (49 zeros), 21 multiplications, cond 3.92; 500k/s, 6 s, 14 s left");
     progress.best = {};
     EXPECT_THAT(progress_text(progress), testing::HasSubstr("singular"));
 }

@@ -1,5 +1,3 @@
-#include "search/refine.hpp"
-
 #include <gtest/gtest.h>
 
 #include "exact/spherical_harmonics.hpp"
@@ -8,6 +6,7 @@
 #include "search/genetic.hpp"
 #include "search/pattern.hpp"
 #include "search/polish.hpp"
+#include "search/refine.hpp"
 
 namespace zonal::search {
 namespace {
@@ -74,7 +73,8 @@ TEST(AngleModel, gradients_agree_with_differences) {
 /// The 52 zeros of band 4 in closed form.
 AngledSet best_of_band_4() {
     const auto lobe = [](const char* theta, const char* phi) {
-        return AngledLobe{{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}};
+        return AngledLobe{{exact::evaluate_closed_form(theta), theta},
+                          {exact::evaluate_closed_form(phi), phi}};
     };
     const char* off_grid = "acos(sqrt((123+6*sqrt(13))/181))";
     return {lobe("0", "0"),
@@ -105,7 +105,7 @@ TEST(Polish, takes_a_perturbed_pattern_to_1e_minus_45) {
     AngledSet perturbed = exact_set;
     perturbed[7].theta.value += Real{"1e-5"};
     perturbed[8].theta.value -= Real{"2e-5"};
-    ASSERT_EQ(confirm(problem, perturbed).score.zeros < 52, true);
+    ASSERT_LT(confirm(problem, perturbed).score.zeros, 52);
     std::vector<bool> is_free(18, false);
     is_free[14] = is_free[16] = true;
     const auto polished = polish(problem, perturbed, pattern, is_free);

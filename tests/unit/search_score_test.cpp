@@ -1,11 +1,10 @@
-#include "search/score.hpp"
-
 #include <gtest/gtest.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
 #include "search/closed_form_zeros.hpp"
+#include "search/score.hpp"
 
 namespace zonal::search {
 namespace {

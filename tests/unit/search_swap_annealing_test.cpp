@@ -1,9 +1,9 @@
-#include "search/swap_annealing.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "search/swap_annealing.hpp"
 
 namespace zonal::search {
 namespace {
@@ -25,7 +25,8 @@ exact::Matrix<double> fresh_inverse(const CandidateGrid& grid, int l, const Lobe
     return columns.transpose().inverse();
 }
 
-void expect_all_inverses_fresh(const Problem& problem, const CandidateGrid& grid, const TrackedInverses& state) {
+void expect_all_inverses_fresh(const Problem& problem, const CandidateGrid& grid,
+                               const TrackedInverses& state) {
     for (std::size_t b = 0; b < problem.bands.size(); ++b) {
         const auto fresh = fresh_inverse(grid, problem.bands[b], state.lobes());
         EXPECT_LT((state.a_hat(static_cast<int>(b)) - fresh).norm(), 1e-9 * fresh.norm())

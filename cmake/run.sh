@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# The main job: searches lobes for an order, emits and compiles its kernels, and rotates a real environment map
+# by them. Writes under build/run/ only.
+#   bash cmake/run.sh [--accept] [ORDER [MAP [options for zonal-rotate-map, such as --axis 0 0 1 --angle-degrees 30]]]
+# ORDER: 3 … 20, default 4. MAP: latitude-longitude .exr or .hdr, default tests/data/studio.exr.
+# --accept: also puts the table and the code in place, under generator/tables and generated/.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+accept=no
+if [ "${1:-}" = --accept ]; then accept=yes; shift; fi
+order=${1:-4}
+map=$(realpath -m "${2:-$root/tests/data/studio.exr}")
+shift $(($# < 2 ? $# : 2))
+cd "$root"
+
+bash cmake/install_packages.sh
+out=$root/build/run
+mkdir -p "$out"
+build() { # FOLDER TARGETS [options of cmake]: quiet unless it fails
+  local folder=$1 targets=$2
+  shift 2
+  echo "building: $targets"
+  if ! { cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" &&
+    cmake --build "$folder" --target $targets; } >"$folder.log" 2>&1; then
+    cat "$folder.log" >&2
+    exit 1
+  fi
+}
+
+build "$out/generator" zonal-gen
+gen=$out/generator/bin/zonal-gen
+table=$out/tables/order$(printf %02d "$order" 2>/dev/null || echo "$order").json
+"$gen" search --order "$order" --out "$table"
+"$gen" emit --order "$order" --language cpp --table "$table" --out "$out/generated/cpp"
+"$gen" stats --order "$order" --table "$table" --json >"$out/stats.json"
+
+build "$out/kernels" "zonal-rotate-map zonal-report" -DZONAL_BUILD_GENERATOR=OFF -DZONAL_ORDERS="$order" \
+  -DZONAL_GENERATED_DIR="$out/generated/cpp"
+"$out/kernels/bin/zonal-rotate-map" --order "$order" --map "$map" --out "$out/images" "$@"
+"$out/kernels/bin/zonal-report" --stats "$out/stats.json"
+
+if [ "$accept" = yes ]; then
+  cp "$table" generator/tables/
+  "$gen" emit --order "$order" --language cpp --out generated/cpp
+  echo "accepted. Next: list the order in cmake/orders.cmake, publish its error bound (generator/tables/README.md)"
+fi

@@ -1,0 +1,357 @@
+// What every order's kernels must do by their mathematics, whatever the rounding: each test runs for all orders.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "support/accuracy.hpp"
+#include "support/counting.hpp"
+#include "support/kernels.hpp"
+#include "zonal/rgb.hpp"
+
+namespace zonal {
+namespace {
+
+using Matrix = cases::Matrix;
+
+/// Relative rounding error that two roundings of one kernel can differ by: twice the contract of the order.
+template <int N>
+double tolerance() {
+    return 2 * accuracy::zhf_contract(N, false);
+}
+
+double norm(const std::vector<double>& v) {
+    double sum = 0;
+    for (const double x : v) sum += x * x;
+    return std::sqrt(sum);
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum);
+}
+
+template <int N>
+std::vector<double> rotated(const Matrix& rotation, const std::vector<double>& f) {
+    std::vector<double> out(f.size());
+    Order<N>::rotate(rotation.data(), f.data(), out.data());
+    return out;
+}
+
+template <int N>
+struct Properties {
+    std::mt19937_64 random{N};
+    const std::vector<double> f = cases::random_signal(N, random);
+    const Matrix rotation = cases::random_rotation(random);
+
+    void identity_returns_the_input() {
+        EXPECT_LE(distance(rotated<N>({1, 0, 0, 0, 1, 0, 0, 0, 1}, f), f), tolerance<N>() * norm(f));
+    }
+
+    void identity_is_right_when_denormals_are_flushed() {
+#if defined(__SSE__)
+        const unsigned state = _mm_getcsr();
+        _mm_setcsr(state | 0x8040);  // flush to zero, denormals are zero
+        const std::vector<double> result = rotated<N>({1, 0, 0, 0, 1, 0, 0, 0, 1}, f);
+        _mm_setcsr(state);
+        EXPECT_LE(distance(result, f), tolerance<N>() * norm(f));
+#endif
+    }
+
+    void inverse_after_forward_returns_the_input() {
+        const auto back = rotated<N>(cases::transposed(rotation), rotated<N>(rotation, f));
+        EXPECT_LE(distance(back, f), 2 * tolerance<N>() * norm(f));
+    }
+
+    void two_rotations_are_their_product() {
+        const Matrix second = cases::random_rotation(random);
+        const auto in_turn = rotated<N>(second, rotated<N>(rotation, f));
+        const auto at_once = rotated<N>(cases::product(second, rotation), f);
+        EXPECT_LE(distance(in_turn, at_once), 2 * tolerance<N>() * norm(f));
+    }
+
+    void x_turns_into_y() {
+        // Band 1 is (y, z, x): a quarter turn about z takes the lobe along x to the lobe along y.
+        std::vector<double> x(N * N, 0);
+        x[3] = 1;
+        const auto y = rotated<N>({0, -1, 0, 1, 0, 0, 0, 0, 1}, x);
+        EXPECT_NEAR(y[1], 1, tolerance<N>());
+        EXPECT_NEAR(y[3], 0, tolerance<N>());
+    }
+
+    void zonal_projection_turns_with_the_direction() {
+        // Hable: R·P(n) = P(M n), P the projection of a direction.
+        std::normal_distribution<oracle::Real> normal;
+        oracle::Vector3 n{normal(random), normal(random), normal(random)};
+        const oracle::Real length = std::hypot(n[0], n[1], n[2]);
+        for (auto& component : n) component /= length;
+        oracle::Vector3 turned{};
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) turned[i] += rotation[3 * i + j] * n[j];
+        const auto before = oracle::basis(N, n), after = oracle::basis(N, turned);
+        const std::vector<double> p(before.begin(), before.end()), expected(after.begin(), after.end());
+        EXPECT_LE(distance(rotated<N>(rotation, p), expected), tolerance<N>() * norm(p));
+    }
+
+    void factorize_and_expand_undo_each_other() {
+        std::vector<double> z(N * N), back(N * N);
+        Order<N>::factorize(f.data(), z.data());
+        Order<N>::expand(z.data(), back.data());
+        EXPECT_LE(distance(back, f), tolerance<N>() * norm(f));
+    }
+
+    void weights_of_the_lobes_sum_to_the_signal() {
+        // f(ω) = sum over bands and lobes of z_ld * sum_m y_lm(ω_d) y_lm(ω), by the oracle's basis.
+        std::vector<double> z(N * N), directions(3 * (2 * N - 1));
+        Order<N>::factorize(f.data(), z.data());
+        const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        Order<N>::lobes(identity, directions.data());
+        std::vector<double> sum(N * N, 0);
+        for (int d = 0; d < 2 * N - 1; ++d) {
+            const auto y = oracle::basis(N, {directions[3 * d], directions[3 * d + 1], directions[3 * d + 2]});
+            for (int l = (d + 1) / 2; l < N; ++l)
+                for (int i = l * l; i < (l + 1) * (l + 1); ++i) sum[i] += z[l * l + d] * static_cast<double>(y[i]);
+        }
+        EXPECT_LE(distance(sum, f), tolerance<N>() * norm(f));
+    }
+
+    void turned_lobes_are_r_times_those_of_the_identity() {
+        const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        std::vector<double> still(3 * (2 * N - 1)), turned(still.size());
+        Order<N>::lobes(identity, still.data());
+        Order<N>::lobes(rotation.data(), turned.data());
+        for (int d = 0; d < 2 * N - 1; ++d) {
+            for (int i = 0; i < 3; ++i) {
+                double expected = 0;
+                for (int j = 0; j < 3; ++j) expected += rotation[3 * i + j] * still[3 * d + j];
+                EXPECT_NEAR(turned[3 * d + i], expected, 4 * std::numeric_limits<double>::epsilon());
+            }
+        }
+    }
+
+    void resample_recovers_the_rotated_signal_from_samples() {
+        // eq. 11: samples of every band of the unrotated signal at Rᵀ (lobe direction), by the oracle.
+        const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        std::vector<double> directions(3 * (2 * N - 1)), samples(N * N), out(N * N);
+        Order<N>::lobes(identity, directions.data());
+        for (int d = 0; d < 2 * N - 1; ++d) {
+            oracle::Vector3 back{};
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) back[i] += rotation[3 * j + i] * directions[3 * d + j];
+            const auto y = oracle::basis(N, back);
+            for (int l = (d + 1) / 2; l < N; ++l) {
+                oracle::Real sample = 0;
+                for (int i = l * l; i < (l + 1) * (l + 1); ++i) sample += f[i] * y[i];
+                samples[l * l + d] = static_cast<double>(sample);
+            }
+        }
+        Order<N>::resample(samples.data(), out.data());
+        EXPECT_LE(distance(out, rotated<N>(rotation, f)), tolerance<N>() * norm(f));
+    }
+
+    template <class Run>
+    void expect_same_in_place(Run run) {
+        std::vector<double> apart(N * N), in_place = f;
+        run(f.data(), apart.data());
+        run(in_place.data(), in_place.data());
+        EXPECT_EQ(apart, in_place);
+    }
+    void every_kernel_may_overwrite_its_input() {
+        const double* r = rotation.data();
+        expect_same_in_place([&](const double* in, double* out) { Order<N>::rotate(r, in, out); });
+        expect_same_in_place([&](const double* in, double* out) { Order<N>::rotate_zhf(r, in, out); });
+        expect_same_in_place([](const double* in, double* out) { Order<N>::factorize(in, out); });
+        expect_same_in_place([](const double* in, double* out) { Order<N>::expand(in, out); });
+        expect_same_in_place([](const double* in, double* out) { Order<N>::resample(in, out); });
+    }
+
+    void a_value_that_is_not_finite_stays_in_its_band() {
+        for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+            for (int broken = 0; broken < N; ++broken) {
+                std::vector<double> spoilt = f;
+                spoilt[broken * broken] = bad;
+                const auto clean = rotated<N>(rotation, f), result = rotated<N>(rotation, spoilt);
+                for (int i = 0; i < N * N; ++i) {
+                    const bool is_in_band = broken * broken <= i && i < (broken + 1) * (broken + 1);
+                    if (is_in_band) continue;
+                    EXPECT_EQ(result[i], clean[i]) << "band " << broken << " leaked into " << i;
+                }
+                EXPECT_FALSE(std::isfinite(norm(result)));
+            }
+        }
+    }
+
+    template <class T>
+    void expect_denormals_within_4_n_squared() {
+        const T smallest = std::numeric_limits<T>::denorm_min();
+        std::vector<T> tiny(N * N), out(N * N);
+        std::vector<double> whole(N * N);
+        for (int i = 0; i < N * N; ++i) {
+            whole[i] = std::round(1000 * f[i]);
+            tiny[i] = static_cast<T>(whole[i]) * smallest;
+        }
+        T r[9];
+        std::copy(rotation.begin(), rotation.end(), r);
+        Order<N>::rotate(r, tiny.data(), out.data());
+        oracle::Matrix3 given;
+        std::copy(r, r + 9, given.begin());
+        const auto expected = oracle::Rotation(N)(given, {whole.begin(), whole.end()});
+        for (int i = 0; i < N * N; ++i)
+            EXPECT_LE(std::abs(static_cast<oracle::Real>(out[i]) / smallest - expected[i]), 4 * N * N);
+    }
+    void denormals_keep_their_absolute_accuracy() {
+        expect_denormals_within_4_n_squared<float>();
+        expect_denormals_within_4_n_squared<double>();
+    }
+
+    void energy_of_every_band_survives_a_chain_of_small_rotations() {
+        // 10^6 steps of one vector; n steps may lose n times the contract, orthonormality of the step included.
+        constexpr int kSteps = 1000000;
+        std::vector<double> v = f;
+        const Matrix step = cases::about_axis({2.0 / 7, 3.0 / 7, 6.0 / 7}, 1e-3);
+        for (int k = 0; k < kSteps; ++k) Order<N>::rotate(step.data(), v.data(), v.data());
+        oracle::Matrix3 given;
+        std::copy(step.begin(), step.end(), given.begin());
+        const double lost = kSteps * (accuracy::zhf_contract(N, false) +
+                                      (N - 1) * static_cast<double>(oracle::orthonormality_error(given)) / 2);
+        for (int l = 0; l < N; ++l) {
+            const std::vector<double> before(f.begin() + l * l, f.begin() + (l + 1) * (l + 1));
+            const std::vector<double> after(v.begin() + l * l, v.begin() + (l + 1) * (l + 1));
+            EXPECT_NEAR(norm(after), norm(before), lost * norm(before)) << "band " << l;
+        }
+    }
+
+    void an_rgb_signal_is_three_scalar_ones() {
+        std::vector<Rgb<double>> rgb(N * N), out(N * N);
+        const auto g = cases::random_signal(N, random), b = cases::random_signal(N, random);
+        for (int i = 0; i < N * N; ++i) rgb[i] = {f[i], g[i], b[i]};
+        Order<N>::rotate(rotation.data(), rgb.data(), out.data());
+        const auto red = rotated<N>(rotation, f), green = rotated<N>(rotation, g), blue = rotated<N>(rotation, b);
+        for (int i = 0; i < N * N; ++i) EXPECT_EQ(out[i], (Rgb<double>{red[i], green[i], blue[i]}));
+        // Kernels without a rotation take their constants in the signal's value_type.
+        std::vector<double> z(N * N);
+        Order<N>::factorize(rgb.data(), out.data());
+        Order<N>::factorize(f.data(), z.data());
+        for (int i = 0; i < N * N; ++i) EXPECT_EQ(out[i].r, z[i]);
+    }
+};
+
+std::string banner_cost(int order, const std::string& kernel) {
+    std::ifstream stream(fmt::format("{}/zonal/order{:02}.hpp", ZONAL_GENERATED_DIR, order));
+    for (std::string line; std::getline(stream, line);) {
+        const auto at = line.find(kernel + " ");
+        if (line.starts_with("//") && at != std::string::npos && line.find(" mul ") != std::string::npos)
+            return line.substr(at + kernel.size() + 1);
+    }
+    return "";
+}
+
+std::string text_of(const Tally& tally) {
+    return fmt::format("{} mul {} add {} fma {} other", tally.mul, tally.add, tally.fma, tally.other);
+}
+
+template <int N>
+struct Counts {
+    std::vector<Counting> r{9, Counting(0.5)}, in{N * N, Counting(1)}, out{N * N, Counting(0)};
+
+    /// What the counting type sees for one vector is the banner's first part.
+    template <class Run>
+    void expect_banner(const std::string& kernel, Run run) {
+        Counting::tally = {};
+        run();
+        const std::string banner = banner_cost(N, kernel);
+        EXPECT_EQ(text_of(Counting::tally), banner.substr(0, banner.find(';'))) << kernel << ", order " << N;
+    }
+
+    void banners_tell_what_a_counting_type_sees() {
+        std::vector<Counting> directions(3 * (2 * N - 1), Counting(0));
+        expect_banner("factorize", [&] { Order<N>::factorize(in.data(), out.data()); });
+        expect_banner("expand", [&] { Order<N>::expand(in.data(), out.data()); });
+        expect_banner("resample", [&] { Order<N>::resample(in.data(), out.data()); });
+        expect_banner("lobes", [&] { Order<N>::lobes(r.data(), directions.data()); });
+        expect_banner("rotate_zhf", [&] { Order<N>::rotate_zhf(r.data(), in.data(), out.data()); });
+        Counting::tally = {};
+        Order<N>::rotate(r.data(), in.data(), out.data());
+        const auto rotate = Counting::tally;
+        Counting::tally = {};
+        Order<N>::rotate_zhf(r.data(), in.data(), out.data());
+        EXPECT_EQ(text_of(rotate), text_of(Counting::tally));
+    }
+
+    void a_further_vector_costs_what_the_banner_says() {
+        const std::string banner = banner_cost(N, "rotate_zhf");
+        const std::string extra = banner.substr(banner.find("vector ") + 7);
+        std::vector<PerVector> f(N * N), result(N * N);
+        std::vector<double> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+        PerVector::tally = {};
+        Order<N>::rotate_zhf(rotation.data(), f.data(), result.data());
+        EXPECT_EQ(text_of(PerVector::tally), extra);
+    }
+
+    /// A signal value that counts what is done with it; its scalars are doubles and are not counted.
+    struct PerVector {
+        static inline Tally tally;
+        friend PerVector operator+(PerVector, PerVector) { return ++tally.add, PerVector{}; }
+        friend PerVector operator-(PerVector, PerVector) { return ++tally.add, PerVector{}; }
+        friend PerVector operator-(PerVector) { return {}; }
+        friend PerVector operator*(double, PerVector) { return ++tally.mul, PerVector{}; }
+        friend PerVector fma(double, PerVector, PerVector) { return ++tally.fma, PerVector{}; }
+    };
+
+    /// Below the paper's Table II, standard algorithm on the CPU, although the turning of the lobes is counted.
+    void rotate_zhf_multiplies_less_than_the_paper() {
+        const std::map<int, int> paper{{3, 90}, {4, 275}, {5, 606}, {6, 1123}};
+        if (!paper.contains(N)) return;
+        Counting::tally = {};
+        Order<N>::rotate_zhf(r.data(), in.data(), out.data());
+        EXPECT_LT(Counting::tally.mul + Counting::tally.fma, paper.at(N));
+    }
+};
+
+/// Runs one check for every order that is compiled in.
+template <class Check>
+void for_each_order(Check check) {
+#define ZONAL_CHECK_ORDER(N)                           \
+    {                                                  \
+        SCOPED_TRACE("order " #N);                     \
+        check(std::integral_constant<int, N>{});       \
+    }
+    ZONAL_FOR_EACH_ORDER(ZONAL_CHECK_ORDER)
+#undef ZONAL_CHECK_ORDER
+}
+
+#define ZONAL_TEST(suite, name)                                                                       \
+    TEST(suite, name) {                                                                               \
+        for_each_order([](auto order) { suite<decltype(order)::value>{}.name(); });                   \
+    }
+ZONAL_TEST(Properties, identity_returns_the_input)
+ZONAL_TEST(Properties, identity_is_right_when_denormals_are_flushed)
+ZONAL_TEST(Properties, inverse_after_forward_returns_the_input)
+ZONAL_TEST(Properties, two_rotations_are_their_product)
+ZONAL_TEST(Properties, x_turns_into_y)
+ZONAL_TEST(Properties, zonal_projection_turns_with_the_direction)
+ZONAL_TEST(Properties, factorize_and_expand_undo_each_other)
+ZONAL_TEST(Properties, weights_of_the_lobes_sum_to_the_signal)
+ZONAL_TEST(Properties, turned_lobes_are_r_times_those_of_the_identity)
+ZONAL_TEST(Properties, resample_recovers_the_rotated_signal_from_samples)
+ZONAL_TEST(Properties, every_kernel_may_overwrite_its_input)
+ZONAL_TEST(Properties, a_value_that_is_not_finite_stays_in_its_band)
+ZONAL_TEST(Properties, denormals_keep_their_absolute_accuracy)
+ZONAL_TEST(Properties, energy_of_every_band_survives_a_chain_of_small_rotations)
+ZONAL_TEST(Properties, an_rgb_signal_is_three_scalar_ones)
+ZONAL_TEST(Counts, banners_tell_what_a_counting_type_sees)
+ZONAL_TEST(Counts, a_further_vector_costs_what_the_banner_says)
+ZONAL_TEST(Counts, rotate_zhf_multiplies_less_than_the_paper)
+#undef ZONAL_TEST
+
+}  // namespace
+}  // namespace zonal
