@@ -6,7 +6,8 @@
 namespace zonal {
 
 /// Writes `content` under a temporary name in the same folder, then renames it onto `path`, making folders as
-/// needed: a failed run leaves the old file and no half one. Throws `UserError` naming the path and the reason.
+/// needed: a failed run leaves the old file and no half one. Throws `UserError` naming the path and the
+/// reason.
 void write_file_atomically(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace zonal

@@ -55,7 +55,8 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     unit.sources = {"Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11"};
     unit.kernels = order.kernels;
     unit.bounds = order.bounds;
-    unit.forwards = {{"rotate", "rotate_zhf", "The cheapest exact rotation of one vector that this order has: rotate_zhf."}};
+    unit.forwards = {{"rotate", "rotate_zhf",
+                      "The cheapest exact rotation of one vector that this order has: rotate_zhf."}};
     return unit;
 }
 

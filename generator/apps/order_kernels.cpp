@@ -12,8 +12,8 @@ namespace zonal {
 
 namespace {
 
-/// Published error bounds of the kernels that a table gives, from the committed file that `zonal-measure-bounds`
-/// writes: generator/tables/README.md.
+/// Published error bounds of the kernels that a table gives, from the committed file that
+/// `zonal-measure-bounds` writes: generator/tables/README.md.
 std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path, const LobeTable& table) {
     std::ifstream stream(path);
     if (!stream) return {};
@@ -23,7 +23,8 @@ std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path
             if (entry.at("order") == table.order && entry.at("table") == table.sha256.substr(0, kHashDigits))
                 bounds[entry.at("kernel")] = {entry.at("float"), entry.at("double")};
     } catch (const nlohmann::json::exception& error) {
-        throw UserError(fmt::format("{}: {}; write it again with zonal-measure-bounds", path.string(), error.what()));
+        throw UserError(
+            fmt::format("{}: {}; write it again with zonal-measure-bounds", path.string(), error.what()));
     }
     return bounds;
 }
@@ -32,7 +33,8 @@ std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path
 
 void check_order(int order) {
     if (order < kSmallestOrder || order > kLargestOrder)
-        throw UserError(fmt::format("--order: found {}, wanted {} … {}", order, kSmallestOrder, kLargestOrder));
+        throw UserError(
+            fmt::format("--order: found {}, wanted {} … {}", order, kSmallestOrder, kLargestOrder));
 }
 
 OrderKernels build_order_kernels(int order, const std::filesystem::path& table_path) {
@@ -41,7 +43,8 @@ OrderKernels build_order_kernels(int order, const std::filesystem::path& table_p
     const std::filesystem::path path = is_own ? ZONAL_TABLES_DIR / lobe_table_name(order) : table_path;
     OrderKernels result;
     result.table = read_lobe_table(path, order);
-    result.table_name = is_own ? ("generator/tables" / lobe_table_name(order)).string() : path.filename().string();
+    result.table_name =
+        is_own ? ("generator/tables" / lobe_table_name(order)).string() : path.filename().string();
     result.lobes = {order, result.table.directions, exact::factorize_order(order, result.table.directions)};
     result.kernels = kernels::build_order(result.lobes);
     result.bounds = read_bounds(ZONAL_TABLES_DIR / "bounds.json", result.table);

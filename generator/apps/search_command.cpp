@@ -188,15 +188,18 @@ void add_search_command(CLI::App& app) {
     command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
         ->required();
     command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
-    command->add_option("--generations", o.generations, "to run (default: until none improves for --stall)")
+    command
+        ->add_option("--generations", o.generations,
+                     "to run; with neither these nor --seconds: until none improves for --stall")
         ->check(CLI::PositiveNumber);
-    command->add_option("--seconds", o.seconds, "to stop earlier")->check(CLI::PositiveNumber);
+    command->add_option("--seconds", o.seconds, "after which to stop")->check(CLI::PositiveNumber);
     command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
     command->add_flag("--plain", o.is_plain,
                       "the paper's genetic algorithm, with no local steps, on the grid");
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
-    command->add_option("--zero-bands", o.zero_bands,
-                        "candidates lie at the zeros of bands 1 to this (default: N-1, as in the paper)")
+    command
+        ->add_option("--zero-bands", o.zero_bands,
+                     "candidates lie at the zeros of bands 1 to this (default: N-1, as in the paper)")
         ->check(CLI::Range(1, 30));
     command->add_option("--islands", o.islands, "populations that breed apart")
         ->capture_default_str()

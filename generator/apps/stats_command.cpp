@@ -65,7 +65,8 @@ void print_table(const Json& stats) {
         const Json& once = kernel["per_rotation"];
         fmt::print("{:<12}{:>6}{:>6}{:>6}{:>7}   {} {} {} {}\n", name, kernel["mul"].get<int>(),
                    kernel["add"].get<int>(), kernel["fma"].get<int>(), kernel["other"].get<int>(),
-                   once["mul"].get<int>(), once["add"].get<int>(), once["fma"].get<int>(), once["other"].get<int>());
+                   once["mul"].get<int>(), once["add"].get<int>(), once["fma"].get<int>(),
+                   once["other"].get<int>());
     }
 }
 

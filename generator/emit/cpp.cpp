@@ -22,7 +22,7 @@ using graph::Op;
 
 const char* const kPrelude = R"(
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
-// ZONAL_NO_FMA: always a product and a sum (build with -ffp-contract=off for the same bits everywhere).
+// ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
 inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
@@ -90,11 +90,13 @@ std::string kernel_comment(const Kernel& kernel) {
     for (const graph::Array& array : kernel.inputs) describe(array);
     describe(kernel.output);
     const graph::Array& last = kernel.inputs.back();
-    text += last.kind == kernel.output.kind
-                ? fmt::format("/// {} may be {}; they must not overlap in part.\n", kernel.output.name, last.name)
-                : fmt::format("/// {} must not overlap {}.\n", kernel.output.name, last.name);
+    text +=
+        last.kind == kernel.output.kind
+            ? fmt::format("/// {} may be {}; they must not overlap in part.\n", kernel.output.name, last.name)
+            : fmt::format("/// {} must not overlap {}.\n", kernel.output.name, last.name);
     if (!kernel.bound_excess.empty())
-        text += fmt::format("/// Error: at most the banner's bound and {}, times |{}|.\n", kernel.bound_excess, last.name);
+        text += fmt::format("/// Error: at most the banner's bound and {}, times |{}|.\n",
+                            kernel.bound_excess, last.name);
     text += "/// Cost: see the banner.\n";
     return text + fmt::format("/// Source: {}.\n", kernel.source);
 }
@@ -132,15 +134,16 @@ class BodyPrinter {
         for (Id id = 0; id < kernel_.graph.size(); ++id) {
             const Node& node = kernel_.graph[id];
             if (node.op == Op::input && node.kind == Kind::rotation)
-                body_ += fmt::format("    const T {} = {}[{}];\n", names_.at(id), kernel_.inputs[node.array].name,
-                                     node.index);
+                body_ += fmt::format("    const T {} = {}[{}];\n", names_.at(id),
+                                     kernel_.inputs[node.array].name, node.index);
         }
     }
 
     std::string operand(Id id, bool is_negated = false) const {
         const Node& node = kernel_.graph[id];
         const std::string sign = is_negated ? "-" : "";
-        if (node.op == Op::constant) return fmt::format("T({})", literal(is_negated ? -node.value : node.value));
+        if (node.op == Op::constant)
+            return fmt::format("T({})", literal(is_negated ? -node.value : node.value));
         if (node.op == Op::input && node.kind == Kind::signal)
             return fmt::format("{}{}[{}]", sign, kernel_.inputs[node.array].name, node.index);
         return sign + names_.at(id);
@@ -149,15 +152,20 @@ class BodyPrinter {
     std::string expression(const Node& node) const {
         const auto text = [&](int k) { return operand(node.operands[k]); };
         switch (node.op) {
-            case Op::negate: return operand(node.operands[0], true);
-            case Op::add: return fmt::format("{} + {}", text(0), text(1));
-            case Op::subtract: return fmt::format("{} - {}", text(0), text(1));
-            case Op::multiply: return fmt::format("{} * {}", text(0), text(1));
+            case Op::negate:
+                return operand(node.operands[0], true);
+            case Op::add:
+                return fmt::format("{} + {}", text(0), text(1));
+            case Op::subtract:
+                return fmt::format("{} - {}", text(0), text(1));
+            case Op::multiply:
+                return fmt::format("{} * {}", text(0), text(1));
             case Op::fused:
-                return fmt::format("fma({}, {}, {})", operand(node.operands[0], node.negated_product), text(1),
-                                   operand(node.operands[2], node.negated_addend));
+                return fmt::format("fma({}, {}, {})", operand(node.operands[0], node.negated_product),
+                                   text(1), operand(node.operands[2], node.negated_addend));
             case Op::constant:
-            case Op::input: break;
+            case Op::input:
+                break;
         }
         throw std::logic_error("constants and inputs are operands, not statements");
     }
@@ -168,16 +176,18 @@ class BodyPrinter {
 };
 
 std::string print_kernel(const Kernel& kernel) {
-    return fmt::format("\n{}{}void {}({}) {{\n{}}}\n", kernel_comment(kernel), template_line(kernel), kernel.name,
-                       parameters(kernel), BodyPrinter(kernel).print());
+    return fmt::format("\n{}{}void {}({}) {{\n{}}}\n", kernel_comment(kernel), template_line(kernel),
+                       kernel.name, parameters(kernel), BodyPrinter(kernel).print());
 }
 
 std::string print_bounds(const Unit& unit) {
     std::string text;
     for (const auto& [kernel, bound] : unit.bounds) {
         text += fmt::format("\n/// Largest relative error of {}, {}.\n", kernel, unit.domain);
-        text += fmt::format("inline constexpr double k{}BoundFloat = {};\n", pascal_case(kernel), bound.float_text);
-        text += fmt::format("inline constexpr double k{}BoundDouble = {};\n", pascal_case(kernel), bound.double_text);
+        text += fmt::format("inline constexpr double k{}BoundFloat = {};\n", pascal_case(kernel),
+                            bound.float_text);
+        text += fmt::format("inline constexpr double k{}BoundDouble = {};\n", pascal_case(kernel),
+                            bound.double_text);
     }
     return text;
 }

@@ -21,7 +21,8 @@ struct Bound {
     std::string double_text;
 };
 
-/// Everything one generated file holds, ready to print in any language: kernels are optimized, texts are final.
+/// Everything one generated file holds, ready to print in any language: kernels are optimized, texts are
+/// final.
 struct Unit {
     std::string name;     ///< "order4": namespace or prefix
     std::string command;  ///< the command that makes the same bytes again

@@ -10,16 +10,16 @@ namespace zonal::exact {
 
 /// Values y_l^{-l} … y_l^l (2l+1 of them, index l + m) at a unit direction, for any real scalar `S`: real,
 /// orthonormal, no Condon-Shortley sign, z polar. Accurate to a few units in the last place of `S` times l.
-/// Source: Nowrouzezahrai et al., eq. 1, with sin^m(theta) taken into the powers of x + iy, so that there is no
-/// angle and no pole.
+/// Source: Nowrouzezahrai et al., eq. 1, with sin^m(theta) taken into the powers of x + iy, so that there is
+/// no angle and no pole.
 template <class S>
 Vector<S> evaluate_band(int l, const Direction<S>& direction) {
     using std::sqrt;
     const S x = direction(0), y = direction(1), z = direction(2);
     Vector<S> values(2 * l + 1);
-    S cosine{1}, sine{0};          // C_m and S_m
-    S sectoral{1};                 // d^m P_m / dz^m = (2m-1)!!
-    S factorial_ratio{1};          // (l+m)! / (l-m)!
+    S cosine{1}, sine{0};  // C_m and S_m
+    S sectoral{1};         // d^m P_m / dz^m = (2m-1)!!
+    S factorial_ratio{1};  // (l+m)! / (l-m)!
     const S band_norm = S(2 * l + 1) / (4 * boost::math::constants::pi<S>());
     for (int m = 0; m <= l; ++m) {
         S previous{0}, legendre = sectoral;  // d^m P_k / dz^m for k = m - 1, m

@@ -8,13 +8,20 @@ Cost count_operations(const Kernel& kernel) {
         const Node& node = kernel.graph[id];
         Counts& counts = node.kind == Kind::signal ? cost.per_vector : cost.per_rotation;
         switch (node.op) {
-            case Op::multiply: ++counts.mul; break;
+            case Op::multiply:
+                ++counts.mul;
+                break;
             case Op::add:
-            case Op::subtract: ++counts.add; break;
-            case Op::fused: ++counts.fma; break;
+            case Op::subtract:
+                ++counts.add;
+                break;
+            case Op::fused:
+                ++counts.fma;
+                break;
             case Op::constant:
             case Op::input:
-            case Op::negate: break;
+            case Op::negate:
+                break;
         }
     }
     return cost;

@@ -13,7 +13,8 @@ Kind joined(Kind a, Kind b) { return std::max(a, b); }
 
 Id Graph::intern(Node node) {
     // 45 digits tell constants apart that differ, and join those that two derivations made equal.
-    const std::string value = node.op == Op::constant ? node.value.str(45, std::ios::scientific) : std::string{};
+    const std::string value =
+        node.op == Op::constant ? node.value.str(45, std::ios::scientific) : std::string{};
     Key key{node.op, node.operands, node.negated_product, node.negated_addend, value, node.array, node.index};
     const auto [entry, is_new] = known_.try_emplace(std::move(key), size());
     if (is_new) {
@@ -106,8 +107,10 @@ Id Graph::signed_multiply(Id a, Id b) {
 }
 
 Id Graph::fused(Id a, Id b, Id c, bool negated_product, bool negated_addend) {
-    if (negated_product && nodes_[a].op == Op::constant) return fused(constant(-nodes_[a].value), b, c, false, negated_addend);
-    if (negated_addend && nodes_[c].op == Op::constant) return fused(a, b, constant(-nodes_[c].value), negated_product, false);
+    if (negated_product && nodes_[a].op == Op::constant)
+        return fused(constant(-nodes_[a].value), b, c, false, negated_addend);
+    if (negated_addend && nodes_[c].op == Op::constant)
+        return fused(a, b, constant(-nodes_[c].value), negated_product, false);
     Node node;
     node.op = Op::fused;
     node.kind = joined(joined(nodes_[a].kind, nodes_[b].kind), nodes_[c].kind);

@@ -24,7 +24,7 @@ using Id = int;
 struct Node {
     Op op = Op::constant;
     Kind kind = Kind::constant;
-    std::vector<Id> operands;     ///< add, subtract: 2; multiply: 2, the scalar first; fused: a, b, c; negate: 1
+    std::vector<Id> operands;  ///< add, subtract: 2; multiply: 2, the scalar first; fused: a, b, c; negate: 1
     bool negated_product = false;  ///< fused only
     bool negated_addend = false;   ///< fused only
     Number value = 0;              ///< constant only
@@ -35,9 +35,10 @@ struct Node {
 };
 
 /// An expression graph that knows no language and no spherical harmonics. Building it folds constants, shares
-/// equal expressions (one node an expression, whatever the order of operands) and moves signs outwards, so that
-/// a*b and -a*b share their product. A signal value is only ever added to another or multiplied by a constant
-/// or a rotation scalar; anything else throws std::logic_error. So every kernel is linear by construction.
+/// equal expressions (one node an expression, whatever the order of operands) and moves signs outwards, so
+/// that a*b and -a*b share their product. A signal value is only ever added to another or multiplied by a
+/// constant or a rotation scalar; anything else throws std::logic_error. So every kernel is linear by
+/// construction.
 class Graph {
   public:
     Id constant(const Number& value);
@@ -79,7 +80,11 @@ inline Value operator+(Value a, Value b) { return {a.graph, a.graph->add(a.id, b
 inline Value operator-(Value a, Value b) { return {a.graph, a.graph->subtract(a.id, b.id)}; }
 inline Value operator*(Value a, Value b) { return {a.graph, a.graph->multiply(a.id, b.id)}; }
 inline Value operator-(Value a) { return {a.graph, a.graph->negate(a.id)}; }
-inline Value operator*(const Number& a, Value b) { return {b.graph, b.graph->multiply(b.graph->constant(a), b.id)}; }
-inline Value operator+(Value a, const Number& b) { return {a.graph, a.graph->add(a.id, a.graph->constant(b))}; }
+inline Value operator*(const Number& a, Value b) {
+    return {b.graph, b.graph->multiply(b.graph->constant(a), b.id)};
+}
+inline Value operator+(Value a, const Number& b) {
+    return {a.graph, a.graph->add(a.id, a.graph->constant(b))};
+}
 
 }  // namespace zonal::graph

@@ -25,12 +25,24 @@ Id rebuild(Graph& graph, const Node& node, const std::vector<Id>& moved) {
     const auto operand = [&](int k) { return moved[node.operands[k]]; };
     Id id = -1;
     switch (node.op) {
-        case Op::constant: id = graph.constant(node.value); break;
-        case Op::input: id = graph.input(node.kind, node.array, node.index); break;
-        case Op::negate: id = graph.negate(operand(0)); break;
-        case Op::add: id = graph.add(operand(0), operand(1)); break;
-        case Op::subtract: id = graph.subtract(operand(0), operand(1)); break;
-        case Op::multiply: id = graph.signed_multiply(operand(0), operand(1)); break;
+        case Op::constant:
+            id = graph.constant(node.value);
+            break;
+        case Op::input:
+            id = graph.input(node.kind, node.array, node.index);
+            break;
+        case Op::negate:
+            id = graph.negate(operand(0));
+            break;
+        case Op::add:
+            id = graph.add(operand(0), operand(1));
+            break;
+        case Op::subtract:
+            id = graph.subtract(operand(0), operand(1));
+            break;
+        case Op::multiply:
+            id = graph.signed_multiply(operand(0), operand(1));
+            break;
         case Op::fused:
             id = graph.fused(operand(0), operand(1), operand(2), node.negated_product, node.negated_addend);
             break;
@@ -52,12 +64,12 @@ Kernel form_fused(const Kernel& kernel) {
     const auto operand_position = [&](Id sum, Id product) { return old[sum].operands[0] == product ? 0 : 1; };
     const auto try_fuse = [&](Id product) {
         const auto& uses = users[product];
-        const bool can_go = !is_output[product] && !uses.empty() &&
-                            std::all_of(uses.begin(), uses.end(), [&](Id use) {
-                                const Op op = old[use].op;
-                                return (op == Op::add || op == Op::subtract) && fused_operand[use] < 0 &&
-                                       old[use].operands[0] != old[use].operands[1];
-                            });
+        const bool can_go =
+            !is_output[product] && !uses.empty() && std::all_of(uses.begin(), uses.end(), [&](Id use) {
+                const Op op = old[use].op;
+                return (op == Op::add || op == Op::subtract) && fused_operand[use] < 0 &&
+                       old[use].operands[0] != old[use].operands[1];
+            });
         if (!can_go) return;
         for (const Id use : uses) fused_operand[use] = operand_position(use, product);
     };

@@ -4,8 +4,8 @@
 
 namespace zonal::graph {
 
-/// Turns a + x*y into one fused instruction wherever that removes the product: a product all of whose uses are
-/// sums is fused into each of them; a product that something else needs stays and is added.
+/// Turns a + x*y into one fused instruction wherever that removes the product: a product all of whose uses
+/// are sums is fused into each of them; a product that something else needs stays and is added.
 Kernel form_fused(const Kernel& kernel);
 
 /// Moves a minus sign in front of an output into the instruction that makes it, where that costs nothing.

@@ -56,7 +56,8 @@ int peak_live_values(const Kernel& kernel, const std::vector<Statement>& stateme
     std::vector<int> last_use(kernel.graph.size(), -1);
     for (int at = 0; at < static_cast<int>(statements.size()); ++at) {
         const Statement& statement = statements[at];
-        if (statement.is_store) last_use[statement.node] = at;
+        if (statement.is_store)
+            last_use[statement.node] = at;
         else
             for (const Id operand : kernel.graph[statement.node].operands) last_use[operand] = at;
     }

@@ -11,8 +11,8 @@ struct Statement {
     int index = 0;  ///< store only: the element of the output
 };
 
-/// Orders a kernel group by group (a group is a band): what the group needs and earlier ones have not computed,
-/// in the order it was built (lobe by lobe), then its stores.
+/// Orders a kernel group by group (a group is a band): what the group needs and earlier ones have not
+/// computed, in the order it was built (lobe by lobe), then its stores.
 std::vector<Statement> schedule(const Kernel& kernel);
 
 /// True when no statement reads an element of `input` after that element of the output was stored: the kernel

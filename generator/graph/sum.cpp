@@ -9,9 +9,7 @@ namespace {
 /// Factors that agree to this relative difference are one constant; they carry 50 digits less the condition.
 const Number kSameConstant{"1e-35"};
 
-bool is_same_size(const Number& a, const Number& b) {
-    return abs(abs(a) - abs(b)) <= kSameConstant * abs(a);
-}
+bool is_same_size(const Number& a, const Number& b) { return abs(abs(a) - abs(b)) <= kSameConstant * abs(a); }
 
 struct Group {
     Number size;              // |factor|, exactly 1 where it is ±1
@@ -60,7 +58,8 @@ int multiplications(const std::vector<Number>& factors) {
     std::vector<Number> sizes;
     for (const Number& factor : factors) {
         if (factor == 0 || is_same_size(Number(1), factor)) continue;
-        if (std::none_of(sizes.begin(), sizes.end(), [&](const Number& s) { return is_same_size(s, factor); }))
+        if (std::none_of(sizes.begin(), sizes.end(),
+                         [&](const Number& s) { return is_same_size(s, factor); }))
             sizes.push_back(factor);
     }
     return static_cast<int>(sizes.size());

@@ -1,10 +1,10 @@
 // Band 2 by lobes, as the symmetric traceless tensor S = sum_d ẑ_d (ω_d ω_dᵀ - I/3).
 //
-// A lobe's direction enters by its square only, so its length is free (the weight takes it back) and most turned
-// lobes need additions alone. I is the sum of three lobes along the axes; with their weights S is a sum of
-// squares that holds whatever R is, so that R S Rᵀ needs |R ω| = 1 nowhere: what R lacks in orthonormality is
-// not amplified.
-// Source: Nowrouzezahrai et al., eq. 10; the tensor form of band 2 is the addition theorem for l = 2.
+// A lobe's direction enters by its square only, so its length is free (the weight takes it back) and most
+// turned lobes need additions alone. I is the sum of three lobes along the axes; with their weights S is a
+// sum of squares that holds whatever R is, so that R S Rᵀ needs |R ω| = 1 nowhere: what R lacks in
+// orthonormality is not amplified. Source: Nowrouzezahrai et al., eq. 10; the tensor form of band 2 is the
+// addition theorem for l = 2.
 #include "kernels/lobe_tensor.hpp"
 
 #include <fmt/format.h>
@@ -41,8 +41,9 @@ std::vector<Square> squares_of(const LobeSet& lobes) {
     for (int d = 0; d < kCount; ++d) squares.push_back({lobes.directions[d], a_hat.col(d)});
     const exact::Vector<Real> trace_part = -a_hat.rowwise().sum() / 3;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto known = std::find_if(squares.begin(), squares.end(),
-                                        [&](const Square& square) { return is_axis(square.direction, axis); });
+        const auto known = std::find_if(squares.begin(), squares.end(), [&](const Square& square) {
+            return is_axis(square.direction, axis);
+        });
         if (known != squares.end())
             known->weight += trace_part;
         else
@@ -62,9 +63,12 @@ void make_largest_component_one(Square& square) {
 
 void build_band_2_tensor(graph::Kernel& kernel, const Matrix3& rows, const LobeSet& lobes) {
     graph::Graph& graph = kernel.graph;
-    // y_2^{-2} = scale * x y for unit vectors; the scale goes into the weights, so that three outputs need none.
+    // y_2^{-2} = scale * x y for unit vectors; the scale goes into the weights, so that three outputs need
+    // none.
     const Real scale = sqrt(15 / (4 * boost::math::constants::pi<Real>()));
-    const auto snapped = [](const Real& value) { return abs(value) < exact::kZeroThreshold ? Real(0) : value; };
+    const auto snapped = [](const Real& value) {
+        return abs(value) < exact::kZeroThreshold ? Real(0) : value;
+    };
 
     Matrix3 tensor;  // upper triangle of R S Rᵀ
     for (Vector3& row : tensor) row.fill({&graph, graph.constant(0)});

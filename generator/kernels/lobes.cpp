@@ -1,9 +1,8 @@
 // Rotation by sparse zonal-harmonic factorization: the kernels that need a lobe table.
 //
-// Band l of a signal is a sum of 2l+1 zonal lobes with weights ẑ = Âᵀ f, where Â is sparse by the choice of the
-// lobe directions; turning the signal turns the lobes and keeps the weights.
-// Source: Nowrouzezahrai, Simari, Fiume, "Sparse Zonal Harmonic Factorization for Efficient SH Rotation",
-// eqs. 7 to 11.
+// Band l of a signal is a sum of 2l+1 zonal lobes with weights ẑ = Âᵀ f, where Â is sparse by the choice of
+// the lobe directions; turning the signal turns the lobes and keeps the weights. Source: Nowrouzezahrai,
+// Simari, Fiume, "Sparse Zonal Harmonic Factorization for Efficient SH Rotation", eqs. 7 to 11.
 #include "kernels/lobes.hpp"
 
 #include <fmt/format.h>
@@ -48,7 +47,8 @@ void build_band_products(Kernel& kernel, const LobeSet& lobes, const char* resul
     }
 }
 
-Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direction<Real>& direction, int lobe) {
+Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direction<Real>& direction,
+                         int lobe) {
     Vector3 turned;
     for (int i = 0; i < 3; ++i) {
         std::vector<graph::Term> terms;
@@ -92,10 +92,16 @@ class LobeHarmonics {
         const Real a = recurrence(l - 1, m);
         Value q;
         switch (l - m) {
-            case 1: return z_;
-            case 2: q = square_minus(a); break;
-            case 3: q = z_ * square_minus(a + recurrence(l - 2, m)); break;
-            default: q = z_ * legendre(l - 1, m) - a * legendre(l - 2, m);
+            case 1:
+                return z_;
+            case 2:
+                q = square_minus(a);
+                break;
+            case 3:
+                q = z_ * square_minus(a + recurrence(l - 2, m));
+                break;
+            default:
+                q = z_ * legendre(l - 1, m) - a * legendre(l - 2, m);
         }
         name(q, fmt::format("q{}_{}", l, m));
         return legendre_[{l, m}] = q;
@@ -113,9 +119,7 @@ class LobeHarmonics {
     }
     /// q_{l+1}^m = z q_l^m - recurrence(l, m) q_{l-1}^m
     static Real recurrence(int l, int m) { return Real(l * l - m * m) / (4 * l * l - 1); }
-    Power next(const Power& p) const {
-        return {x_ * p.cosine - y_ * p.sine, x_ * p.sine + y_ * p.cosine};
-    }
+    Power next(const Power& p) const { return {x_ * p.cosine - y_ * p.sine, x_ * p.sine + y_ * p.cosine}; }
     void name(Value value, const std::string& meaning) {
         kernel_.graph.set_name(value.id, fmt::format("{}_d{}", meaning, lobe_));
     }
@@ -123,7 +127,7 @@ class LobeHarmonics {
     Kernel& kernel_;
     Value x_, y_, z_;
     int lobe_;
-    Value square_;         ///< z² - square_offset_, once it was asked for
+    Value square_;  ///< z² - square_offset_, once it was asked for
     Real square_offset_;
     std::map<int, Power> powers_;
     std::map<std::pair<int, int>, Value> legendre_;
@@ -150,7 +154,8 @@ Real cheapest_weight_scale(const exact::BandFactorization& band) {
         if (entry != 0) candidates.push_back(abs(entry));
     const auto cost = [&](const Real& scale) {
         int multiplications = multiplications_at_scale(band, scale);
-        for (int m = -l; m <= l; ++m) multiplications += graph::multiplications({exact::basis_scale(l, m) * scale});
+        for (int m = -l; m <= l; ++m)
+            multiplications += graph::multiplications({exact::basis_scale(l, m) * scale});
         return multiplications;
     };
     // The first of equally cheap ones: an order that does not depend on a sort.

@@ -1,7 +1,7 @@
 // Refinement off the grid. The zero pattern of a good set can leave continuous freedom; along it another
 // entry may reach zero, or the condition may fall. NLopt's LBFGS minimises over the angles
-//   sum of (relations to keep)^2 + target^2   or   weight * sum of (relations to keep)^2 + sum of log2
-//   ||Â_l||_F,
+//   sum of (zeros to keep)^2 + target^2          to gain a zero,
+//   weight * sum of (relations to keep)^2 + sum of log2 ||Â_l||_F          to lower the condition,
 // with exact gradients; `polish` then confirms the pattern at 50 digits or throws it out. Lobes at the pole
 // stay there, and an angle that was not moved keeps its closed form.
 

@@ -1,6 +1,8 @@
 // The whole search: islands breed in parallel, one generation at a time; each confirms and refines those of
-// its best sets that it has not met before; every few generations the best of an island moves on to the next;
-// an island that has stalled begins anew. Nothing depends on time but when the search ends.
+// its best sets that it has not met before. A set that gained off the grid breeds on, and its new angles
+// become candidates for all: at order 7 that took a minute's search from 230 nonzeros to 219. Every few
+// generations the best of an island moves on to the next; an island that has stalled begins anew. Nothing
+// depends on time but when the search ends.
 
 #include "search/search.hpp"
 
@@ -64,7 +66,8 @@ class Island {
             if (settings_->leaves_grid) {
                 const double cost_on_grid = solution.score.cost(settings_->objective);
                 solution = refine(*problem_, settings_->objective, solution, [&] { return stop.load(); });
-                if (solution.score.cost(settings_->objective) < cost_on_grid) refined_.push_back(solution.lobes);
+                if (solution.score.cost(settings_->objective) < cost_on_grid)
+                    refined_.push_back(solution.lobes);
             }
             if (is_better(solution, best_, settings_->objective)) best_ = solution;
         }
@@ -123,7 +126,7 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
         tbb::parallel_for(0, settings.islands, [&](int i) { islands[i].step(stop); });
         // One after another, so that the grid grows in the same way every time.
         for (Island& island : islands) {
-            if (!getenv("NOFB")) for (const AngledSet& set : island.take_refined()) island.receive(put_on_grid(grid, set));
+            for (const AngledSet& set : island.take_refined()) island.receive(put_on_grid(grid, set));
         }
         ++progress.generation;
         ++stalled;
@@ -136,6 +139,8 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
             has_better = true;
             stalled = 0;
         }
+        // Angles that came back to a candidate take its closed form.
+        if (has_better) result.best.lobes = with_angles(grid, put_on_grid(grid, result.best.lobes));
         if (progress.generation % settings.generations_between_exchanges == 0) exchange(islands);
 
         progress.best = result.best.score;
@@ -149,9 +154,12 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
         if (has_better) observer.on_better(result.best, progress);
         observer.on_generation(progress);
 
-        const bool is_done = settings.generations > 0 ? progress.generation >= settings.generations
-                                                      : stalled >= settings.genetic.stall_generations;
-        if (stop || is_done || (settings.seconds > 0 && progress.seconds >= settings.seconds)) return result;
+        const bool is_out_of_time = settings.seconds > 0 && progress.seconds >= settings.seconds;
+        const bool has_run_its_generations =
+            settings.generations > 0 && progress.generation >= settings.generations;
+        const bool is_told_when_to_end = settings.generations > 0 || settings.seconds > 0;
+        const bool has_stalled = !is_told_when_to_end && stalled >= settings.genetic.stall_generations;
+        if (stop || is_out_of_time || has_run_its_generations || has_stalled) return result;
     }
 }
 

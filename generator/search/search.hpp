@@ -13,9 +13,10 @@ namespace zonal::search {
 /// How long and in which way lobes are sought.
 struct SearchSettings {
     std::uint64_t seed = 1;
-    int generations = 0;  ///< 0: until the best has not improved for `genetic.stall_generations`
+    int generations = 0;  ///< 0: no limit
     double seconds = 0;   ///< stops earlier; 0: no limit
-    int islands = 4;      ///< fixed, so that the result does not depend on the machine's cores
+    // With neither: until the best has not improved for `genetic.stall_generations`.
+    int islands = 4;  ///< fixed, so that the result does not depend on the machine's cores
     int generations_between_exchanges = 10;
     int zero_bands = 0;       ///< whose zeros are candidates, 1 … zero_bands; 0: as many as are sought
     bool leaves_grid = true;  ///< refines the best sets off the grid

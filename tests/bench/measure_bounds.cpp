@@ -1,8 +1,9 @@
 // Measures the error bounds that banners publish, and writes them to generator/tables/bounds.json.
 //
-// Method: for every rotation (random ones and the hard cases) the kernel turns each unit vector; the differences
-// from the oracle are the columns of an error matrix, and its leading right singular vector is a signal that the
-// kernel turns as badly as any. The published bound is the largest error met with such signals times a margin.
+// Method: for every rotation (random ones and the hard cases) the kernel turns each unit vector; the
+// differences from the oracle are the columns of an error matrix, and its leading right singular vector is a
+// signal that the kernel turns as badly as any. The published bound is the largest error met with such
+// signals times a margin.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +32,8 @@ struct Options {
 
 /// The signal that this rotation turns worst, to first order.
 template <class T, class Rotate>
-std::vector<double> worst_signal(int order, const oracle::Rotation& exact, const cases::Matrix& rotation, Rotate rotate) {
+std::vector<double> worst_signal(int order, const oracle::Rotation& exact, const cases::Matrix& rotation,
+                                 Rotate rotate) {
     const int count = order * order;
     T r[9];
     std::copy(rotation.begin(), rotation.end(), r);
@@ -59,7 +61,8 @@ double measured_bound(int order, const Options& options, Rotate rotate) {
     for (int k = 0; k < options.rotations; ++k) rotations.push_back({"", cases::random_rotation(random)});
     for (const cases::Case& c : rotations) {
         const std::vector<double> signal = worst_signal<T>(order, exact, c.rotation, rotate);
-        worst = std::max(worst, accuracy::measure<T>(order, exact, c.rotation, signal, rotate).beyond_excused());
+        worst =
+            std::max(worst, accuracy::measure<T>(order, exact, c.rotation, signal, rotate).beyond_excused());
     }
     return kMargin * worst;
 }
@@ -100,13 +103,16 @@ void run(const Options& options) {
 #define ZONAL_APPEND_ORDER(N) append_order<N>(options, bounds);
     ZONAL_FOR_EACH_ORDER(ZONAL_APPEND_ORDER)
 #undef ZONAL_APPEND_ORDER
-    const std::string command = fmt::format("zonal-measure-bounds --rotations {} --seed {} --out generator/tables/bounds.json",
-                                            options.rotations, options.seed);
+    const std::string command =
+        fmt::format("zonal-measure-bounds --rotations {} --seed {} --out generator/tables/bounds.json",
+                    options.rotations, options.seed);
     const std::string temporary = options.out + ".tmp";
     std::ofstream stream(temporary);
-    stream << nlohmann::ordered_json{{"command", command}, {"margin", kMargin}, {"bounds", bounds}}.dump(2) << "\n";
+    stream << nlohmann::ordered_json{{"command", command}, {"margin", kMargin}, {"bounds", bounds}}.dump(2)
+           << "\n";
     stream.close();
-    if (!stream) throw std::runtime_error(temporary + ": cannot be written; choose another folder with --out");
+    if (!stream)
+        throw std::runtime_error(temporary + ": cannot be written; choose another folder with --out");
     std::filesystem::rename(temporary, options.out);
 }
 
@@ -116,7 +122,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
     CLI::App app{"Measures the error bounds that generated banners publish."};
     zonal::Options options;
-    app.add_option("--rotations", options.rotations, "random rotations for each kernel and type")->capture_default_str();
+    app.add_option("--rotations", options.rotations, "random rotations for each kernel and type")
+        ->capture_default_str();
     app.add_option("--seed", options.seed)->capture_default_str();
     app.add_option("--out", options.out, "the file to write")->required();
     CLI11_PARSE(app, argc, argv);

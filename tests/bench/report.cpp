@@ -1,5 +1,5 @@
-// Error beside time for every kernel of the orders that are compiled in, with the counts that `zonal-gen stats`
-// gives where it is told to: what the main job prints and README shows.
+// Error beside time for every kernel of the orders that are compiled in, with the counts that `zonal-gen
+// stats` gives where it is told to: what the main job prints and README shows.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@
 namespace zonal {
 namespace {
 
-constexpr int kVectors = 256;  // in cache: at N = 6 and double, 256 vectors, results and rotations take 166 KiB
+constexpr int kVectors =
+    256;  // in cache: at N = 6 and double, 256 vectors, results and rotations take 166 KiB
 constexpr int kRotations = 10000;
 constexpr const char* kBaseline = "memcpy";
 
@@ -30,7 +31,8 @@ struct Workload {
     Workload() : in(kVectors * N * N), out(kVectors * std::max(N * N, 3 * (2 * N - 1))) {
         std::mt19937_64 random(1);
         for (int k = 0; k < kVectors; ++k)
-            for (const double entry : cases::random_rotation(random)) rotations.push_back(static_cast<T>(entry));
+            for (const double entry : cases::random_rotation(random))
+                rotations.push_back(static_cast<T>(entry));
         std::normal_distribution<double> normal;
         for (T& value : in) value = static_cast<T>(normal(random));
     }
@@ -64,13 +66,15 @@ void register_benchmarks() {
     std::vector<std::string> names = kKernels;
     names.push_back(kBaseline);
     for (const std::string& name : names)
-        benchmark::RegisterBenchmark(benchmark_name(N, name, type_name<T>()).c_str(), [name](benchmark::State& state) {
-            Workload<N, T> work;
-            for (auto iteration : state) {
-                for (int k = 0; k < kVectors; ++k) run_kernel<N, T>(name, work, k);
-                benchmark::ClobberMemory();
-            }
-        });
+        benchmark::RegisterBenchmark(benchmark_name(N, name, type_name<T>()).c_str(),
+                                     [name](benchmark::State& state) {
+                                         Workload<N, T> work;
+                                         for (auto iteration : state) {
+                                             for (int k = 0; k < kVectors; ++k)
+                                                 run_kernel<N, T>(name, work, k);
+                                             benchmark::ClobberMemory();
+                                         }
+                                     });
 }
 
 /// Largest error of each kernel against the oracle, relative to the input's norm.
@@ -78,7 +82,9 @@ template <int N, class T>
 std::map<std::string, double> measure_errors() {
     using oracle::Real;
     std::map<std::string, double> worst;
-    const auto note = [&](const std::string& kernel, double error) { worst[kernel] = std::max(worst[kernel], error); };
+    const auto note = [&](const std::string& kernel, double error) {
+        worst[kernel] = std::max(worst[kernel], error);
+    };
     const auto rotate = [](const T* R, const T* f, T* out) { Order<N>::rotate_zhf(R, f, out); };
     note("rotate_zhf", accuracy::worst_error<T>(N, kRotations, 1, rotate).beyond_excused);
 
@@ -157,7 +163,8 @@ class Collector : public benchmark::BenchmarkReporter {
 
 void print_stats(const std::string& path) {
     std::ifstream stream(path);
-    if (!stream) throw std::runtime_error(path + ": cannot be read; write it with: zonal-gen stats --order N --json");
+    if (!stream)
+        throw std::runtime_error(path + ": cannot be read; write it with: zonal-gen stats --order N --json");
     const auto stats = nlohmann::json::parse(stream);
     fmt::print("\nOrder {} (degree {}), {} nonzeros in bands of l >= 2\n\n", stats["order"].get<int>(),
                stats["order"].get<int>() - 1, stats["nonzeros"].get<int>());
@@ -186,14 +193,15 @@ void print_order(const Collector& times) {
 
 void run(const std::string& stats, double seconds) {
     if (!stats.empty()) print_stats(stats);
-#define ZONAL_REGISTER(N)              \
-    register_benchmarks<N, float>();   \
+#define ZONAL_REGISTER(N)            \
+    register_benchmarks<N, float>(); \
     register_benchmarks<N, double>();
     ZONAL_FOR_EACH_ORDER(ZONAL_REGISTER)
 #undef ZONAL_REGISTER
     // Interleaved, so that a machine whose speed drifts does not favour one kernel.
     std::vector<std::string> arguments{"zonal-report", "--benchmark_enable_random_interleaving=true",
-                                       "--benchmark_repetitions=9", fmt::format("--benchmark_min_time={}", seconds)};
+                                       "--benchmark_repetitions=9",
+                                       fmt::format("--benchmark_min_time={}", seconds)};
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     int argc = static_cast<int>(argv.size());
@@ -206,12 +214,14 @@ void run(const std::string& stats, double seconds) {
 #else
     const char* fused = "without fused multiply-add";
 #endif
-    fmt::print("\nLargest error over {} random rotations (rotate_zhf: and the hard cases), relative to the input.\n"
-               "Time of one call, one core, {}: {} vectors in cache, each with a rotation of its own; median of 9\n"
-               "interleaved runs. The ratio is to a memcpy of one vector.\n\n",
-               kRotations, fused, kVectors);
-    fmt::print("| N | kernel | error, float | ns, float | / memcpy | error, double | ns, double |\n"
-               "|---|---|---|---|---|---|---|\n");
+    fmt::print(
+        "\nLargest error over {} random rotations (rotate_zhf: and the hard cases), relative to the input.\n"
+        "Time of one call, one core, {}: {} vectors in cache, each with a rotation of its own; median of 9\n"
+        "interleaved runs. The ratio is to a memcpy of one vector.\n\n",
+        kRotations, fused, kVectors);
+    fmt::print(
+        "| N | kernel | error, float | ns, float | / memcpy | error, double | ns, double |\n"
+        "|---|---|---|---|---|---|---|\n");
 #define ZONAL_PRINT(N) print_order<N>(times);
     ZONAL_FOR_EACH_ORDER(ZONAL_PRINT)
 #undef ZONAL_PRINT

@@ -70,7 +70,9 @@ TEST(Emit, leaves_nothing_but_the_header) {
 TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
     const fs::path folder = fresh_folder("columns");
     for (const int order : {3, 6}) {
-        ASSERT_EQ(zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, folder.string())).status, 0);
+        ASSERT_EQ(zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, folder.string()))
+                      .status,
+                  0);
         std::istringstream lines(read(folder / fmt::format("zonal/order{:02}.hpp", order)));
         for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
         EXPECT_THAT(lines.str(), Not(HasSubstr(folder.string())));
@@ -79,9 +81,11 @@ TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
 
 TEST(Emit, an_order_out_of_range_is_named) {
     for (const int order : {0, 1, 21}) {
-        const Outcome result = zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
+        const Outcome result =
+            zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
         EXPECT_EQ(result.status, 1);
-        EXPECT_THAT(result.output, AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("2 … 20")));
+        EXPECT_THAT(result.output,
+                    AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("2 … 20")));
     }
 }
 
@@ -100,7 +104,8 @@ TEST(Emit, a_missing_table_is_named_with_the_next_step) {
 TEST(Emit, a_folder_that_cannot_be_written_is_named_and_gets_no_half_file) {
     const fs::path folder = fresh_folder("blocked");
     std::ofstream(folder / "zonal") << "a file where a folder is wanted";
-    const Outcome result = zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", folder.string()));
+    const Outcome result =
+        zonal_gen(fmt::format("emit --order 4 --language cpp --out '{}'", folder.string()));
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr(folder.string()), HasSubstr("cannot write")));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
@@ -114,8 +119,8 @@ fs::path copy_of_generated(const std::string& name) {
 }
 
 Outcome check_generated(const fs::path& folder, const std::string& option = "") {
-    return run(fmt::format("bash '{}/cmake/check_generated.sh' {} '{}' '{}'", ZONAL_SOURCE_DIR, option, ZONAL_GEN,
-                           folder.string()));
+    return run(fmt::format("bash '{}/cmake/check_generated.sh' {} '{}' '{}'", ZONAL_SOURCE_DIR, option,
+                           ZONAL_GEN, folder.string()));
 }
 
 TEST(CheckGenerated, the_committed_code_is_what_the_generator_writes) {

@@ -24,8 +24,9 @@ double zhf_contract(int order, bool is_float) {
         int order;
         double float_bound, double_bound;
     };
-    static const std::vector<Point> points{{3, 6e-7, 2e-14}, {4, 1e-6, 3e-14},  {5, 2e-6, 4e-14}, {6, 3e-6, 6e-14},
-                                           {8, 5e-6, 1e-13}, {10, 8e-6, 1e-13}, {20, 3e-5, 1e-12}};
+    static const std::vector<Point> points{{3, 6e-7, 2e-14}, {4, 1e-6, 3e-14}, {5, 2e-6, 4e-14},
+                                           {6, 3e-6, 6e-14}, {8, 5e-6, 1e-13}, {10, 8e-6, 1e-13},
+                                           {20, 3e-5, 1e-12}};
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const Point &a = points[k], &b = points[k + 1];
         if (order < a.order || order > b.order) continue;

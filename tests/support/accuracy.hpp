@@ -24,8 +24,8 @@ Error compare(int order, const oracle::Rotation& exact, const oracle::Matrix3& r
 
 /// Runs `rotate(R, f, out)` in T, on a case rounded to T, and compares.
 template <class T, class Rotate>
-Error measure(int order, const oracle::Rotation& exact, const cases::Matrix& rotation, const std::vector<double>& signal,
-              Rotate rotate) {
+Error measure(int order, const oracle::Rotation& exact, const cases::Matrix& rotation,
+              const std::vector<double>& signal, Rotate rotate) {
     T r[9];
     std::copy(rotation.begin(), rotation.end(), r);
     std::vector<T> f(signal.begin(), signal.end()), out(signal.size());
@@ -35,8 +35,8 @@ Error measure(int order, const oracle::Rotation& exact, const cases::Matrix& rot
     return compare(order, exact, given, {f.begin(), f.end()}, {out.begin(), out.end()});
 }
 
-/// The worst error of `rotate` in T over `random_count` random rotations and the hard ones, each with a random
-/// signal, and over the hard signals. `name_of_worst` tells where it was met.
+/// The worst error of `rotate` in T over `random_count` random rotations and the hard ones, each with a
+/// random signal, and over the hard signals. `name_of_worst` tells where it was met.
 struct Worst {
     double beyond_excused = 0;
     std::string name;
@@ -46,7 +46,8 @@ Worst worst_error(int order, int random_count, std::uint64_t seed, Rotate rotate
     std::mt19937_64 random(seed);
     const oracle::Rotation exact(order);
     Worst worst;
-    const auto visit = [&](const std::string& name, const cases::Matrix& rotation, const std::vector<double>& f) {
+    const auto visit = [&](const std::string& name, const cases::Matrix& rotation,
+                           const std::vector<double>& f) {
         const double error = measure<T>(order, exact, rotation, f, rotate).beyond_excused();
         if (!(error <= worst.beyond_excused)) worst = {error, name};  // also when it is NaN
     };

@@ -44,7 +44,8 @@ Matrix product(const Matrix& a, const Matrix& b) { return rounded_product<double
 Matrix transposed(const Matrix& a) { return {a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}; }
 
 Matrix about_axis(const std::array<double, 3>& axis, double angle_rad) {
-    const double c = std::cos(angle_rad), s = std::sin(angle_rad), t = 2 * std::pow(std::sin(angle_rad / 2), 2);
+    const double c = std::cos(angle_rad), s = std::sin(angle_rad),
+                 t = 2 * std::pow(std::sin(angle_rad / 2), 2);
     const auto [x, y, z] = axis;
     return {c + t * x * x,     t * x * y - s * z, t * x * z + s * y, t * x * y + s * z, c + t * y * y,
             t * y * z - s * x, t * x * z - s * y, t * y * z + s * x, c + t * z * z};
@@ -97,7 +98,8 @@ std::vector<Case> hard_rotations(std::mt19937_64& random) {
         for (const double pole : {0.0, kPi}) {
             for (int k = 0; k < 20; ++k) {
                 const Matrix tilt = about_axis({0, 1, 0}, pole + std::pow(10.0, -exponent));
-                const Matrix before = about_axis({0, 0, 1}, angle(random)), after = about_axis({0, 0, 1}, angle(random));
+                const Matrix before = about_axis({0, 0, 1}, angle(random)),
+                             after = about_axis({0, 0, 1}, angle(random));
                 cases.push_back({"tilt from a pole", product(after, product(tilt, before))});
             }
         }

@@ -24,17 +24,17 @@ Matrix random_rotation(std::mt19937_64& random);
 template <class T>
 Matrix rounded_product(const Matrix& a, const Matrix& b);
 
-/// The rotations of design section 6: identity, half turns, axis permutations, mirrors, tilts from both poles,
-/// products of T matrices that should be a pure z rotation (noise at the pole), and matrices orthonormal only to
-/// 1e-3, 1e-5, 1e-7. `random` draws the axes and the noise.
+/// The rotations of design section 6: identity, half turns, axis permutations, mirrors, tilts from both
+/// poles, products of T matrices that should be a pure z rotation (noise at the pole), and matrices
+/// orthonormal only to 1e-3, 1e-5, 1e-7. `random` draws the axes and the noise.
 template <class T>
 std::vector<Case> hard_rotations(std::mt19937_64& random);
 
 /// N² standard normal coefficients.
 std::vector<double> random_signal(int order, std::mt19937_64& random);
 
-/// Signals of design section 6 of sizes a type can hold: energy in one band only, all times 1e30 and 1e-30, one
-/// band a million times the others, zeros.
+/// Signals of design section 6 of sizes a type can hold: energy in one band only, all times 1e30 and 1e-30,
+/// one band a million times the others, zeros.
 std::vector<std::vector<double>> hard_signals(int order, std::mt19937_64& random);
 
 }  // namespace zonal::cases

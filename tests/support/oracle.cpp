@@ -17,9 +17,10 @@ Real determinant(const Matrix3& m) {
 
 Matrix3 inverse_transposed(const Matrix3& m) {
     const Real d = determinant(m);
-    return {(m[4] * m[8] - m[5] * m[7]) / d, (m[5] * m[6] - m[3] * m[8]) / d, (m[3] * m[7] - m[4] * m[6]) / d,
-            (m[2] * m[7] - m[1] * m[8]) / d, (m[0] * m[8] - m[2] * m[6]) / d, (m[1] * m[6] - m[0] * m[7]) / d,
-            (m[1] * m[5] - m[2] * m[4]) / d, (m[2] * m[3] - m[0] * m[5]) / d, (m[0] * m[4] - m[1] * m[3]) / d};
+    return {
+        (m[4] * m[8] - m[5] * m[7]) / d, (m[5] * m[6] - m[3] * m[8]) / d, (m[3] * m[7] - m[4] * m[6]) / d,
+        (m[2] * m[7] - m[1] * m[8]) / d, (m[0] * m[8] - m[2] * m[6]) / d, (m[1] * m[6] - m[0] * m[7]) / d,
+        (m[1] * m[5] - m[2] * m[4]) / d, (m[2] * m[3] - m[0] * m[5]) / d, (m[0] * m[4] - m[1] * m[3]) / d};
 }
 
 /// Nodes and weights of Gauss-Legendre quadrature on [-1, 1].
@@ -114,7 +115,8 @@ std::vector<Real> Rotation::operator()(const Matrix3& rotation, const std::vecto
     std::vector<Real> result(order_ * order_, 0);
     for (const Node& node : nodes_) {
         const Vector3& w = node.direction;
-        const Vector3 turned_back{q[0] * w[0] + q[3] * w[1] + q[6] * w[2], q[1] * w[0] + q[4] * w[1] + q[7] * w[2],
+        const Vector3 turned_back{q[0] * w[0] + q[3] * w[1] + q[6] * w[2],
+                                  q[1] * w[0] + q[4] * w[1] + q[7] * w[2],
                                   q[2] * w[0] + q[5] * w[1] + q[8] * w[2]};
         const Real value = evaluate(order_, f, turned_back);
         for (std::size_t i = 0; i < result.size(); ++i) result[i] += value * node.weighted_basis[i];

@@ -5,8 +5,9 @@
 
 namespace zonal::oracle {
 
-/// The judge of every kernel: pointwise evaluation of f(Rᵀω) in long double and quadrature. It knows spherical
-/// harmonics by their definition, with angles, and shares no code with the generator or the runtime.
+/// The judge of every kernel: pointwise evaluation of f(Rᵀω) in long double and quadrature. It knows
+/// spherical harmonics by their definition, with angles, and shares no code with the generator or the
+/// runtime.
 using Real = long double;
 using Vector3 = std::array<Real, 3>;
 using Matrix3 = std::array<Real, 9>;  ///< row-major
@@ -24,8 +25,8 @@ Matrix3 nearest_orthonormal(const Matrix3& rotation);
 Real orthonormality_error(const Matrix3& rotation);
 
 /// Coefficients of ω -> f(Qᵀω) for the orthonormal matrix nearest to R: f'_i = ∫ f(Qᵀω) y_i(ω) dω by a
-/// quadrature that is exact for products of two functions of this order (Gauss-Legendre in z, equally spaced in
-/// φ). Rounding: about N² units of long double, 2^-64.
+/// quadrature that is exact for products of two functions of this order (Gauss-Legendre in z, equally spaced
+/// in φ). Rounding: about N² units of long double, 2^-64.
 class Rotation {
   public:
     explicit Rotation(int order);

@@ -99,7 +99,8 @@ TEST(Passes, a_product_that_is_stored_stays_and_is_added) {
 TEST(Passes, a_minus_sign_before_an_output_moves_into_the_instruction) {
     Kernel kernel = empty_kernel();
     const Number half = Number(1) / 2, third = Number(1) / 3;
-    kernel.store(0, linear_combination(kernel.graph, {{-half, kernel.input(1, 0)}, {-third, kernel.input(1, 1)}}), 0);
+    kernel.store(
+        0, linear_combination(kernel.graph, {{-half, kernel.input(1, 0)}, {-third, kernel.input(1, 1)}}), 0);
     const Kernel optimized = optimize(kernel);
     EXPECT_EQ(optimized.graph[optimized.stores[0].value].op, Op::fused);
     EXPECT_EQ(count_operations(optimized).total().instructions(), 2);

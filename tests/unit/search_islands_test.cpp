@@ -23,8 +23,8 @@ std::vector<std::string> texts_of(const AngledSet& lobes) {
 }
 
 TEST(Search, same_seed_and_generations_give_the_same_lobes) {
-    const Problem problem = Problem::shared(5);
-    SearchSettings settings = settings_for(problem, 6);
+    const Problem problem = Problem::shared(4);
+    SearchSettings settings = settings_for(problem, 5);
     settings.genetic.population = 10;
     settings.genetic.local_step.moves = 400;
     settings.generations_between_exchanges = 2;

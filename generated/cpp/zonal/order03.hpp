@@ -2,11 +2,16 @@
 // command : zonal-gen emit --order 3 --language cpp --out generated/cpp
 // table   : generator/tables/order03.json  sha256:c25655da22c1bfc8
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : factorize 9 mul 6 add 1 fma 0 other; per extra vector 9 mul 6 add 1 fma 0 other
-//           expand 9 mul 10 add 1 fma 0 other; per extra vector 9 mul 10 add 1 fma 0 other
-//           resample 9 mul 6 add 1 fma 0 other; per extra vector 9 mul 6 add 1 fma 0 other
-//           lobes 9 mul 15 add 0 fma 0 other; per extra vector 0 mul 0 add 0 fma 0 other
-//           rotate_zhf 32 mul 24 add 40 fma 0 other; per extra vector 32 mul 9 add 40 fma 0 other
+// cost    : factorize 9 mul 6 add 1 fma 0 other;
+//             per extra vector 9 mul 6 add 1 fma 0 other
+//           expand 9 mul 10 add 1 fma 0 other;
+//             per extra vector 9 mul 10 add 1 fma 0 other
+//           resample 9 mul 6 add 1 fma 0 other;
+//             per extra vector 9 mul 6 add 1 fma 0 other
+//           lobes 9 mul 15 add 0 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           rotate_zhf 32 mul 24 add 40 fma 0 other;
+//             per extra vector 32 mul 9 add 40 fma 0 other
 //           rotate: rotate_zhf
 // bound   : rotate_zhf none published for this table: see generator/tables/README.md
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11
@@ -17,7 +22,7 @@
 namespace zonal::order3 {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
-// ZONAL_NO_FMA: always a product and a sum (build with -ffp-contract=off for the same bits everywhere).
+// ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
 inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }

@@ -2,11 +2,16 @@
 // command : zonal-gen emit --order 4 --language cpp --out generated/cpp
 // table   : generator/tables/order04.json  sha256:d3a82d6748c4c9c2
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : factorize 11 mul 4 add 13 fma 0 other; per extra vector 11 mul 4 add 13 fma 0 other
-//           expand 16 mul 20 add 5 fma 0 other; per extra vector 16 mul 20 add 5 fma 0 other
-//           resample 14 mul 13 add 6 fma 0 other; per extra vector 14 mul 13 add 6 fma 0 other
-//           lobes 6 mul 6 add 15 fma 0 other; per extra vector 0 mul 0 add 0 fma 0 other
-//           rotate_zhf 100 mul 28 add 164 fma 0 other; per extra vector 50 mul 3 add 79 fma 0 other
+// cost    : factorize 11 mul 4 add 13 fma 0 other;
+//             per extra vector 11 mul 4 add 13 fma 0 other
+//           expand 16 mul 20 add 5 fma 0 other;
+//             per extra vector 16 mul 20 add 5 fma 0 other
+//           resample 14 mul 13 add 6 fma 0 other;
+//             per extra vector 14 mul 13 add 6 fma 0 other
+//           lobes 6 mul 6 add 15 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           rotate_zhf 100 mul 28 add 164 fma 0 other;
+//             per extra vector 50 mul 3 add 79 fma 0 other
 //           rotate: rotate_zhf
 // bound   : rotate_zhf none published for this table: see generator/tables/README.md
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11
@@ -17,7 +22,7 @@
 namespace zonal::order4 {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
-// ZONAL_NO_FMA: always a product and a sum (build with -ffp-contract=off for the same bits everywhere).
+// ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
 inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }

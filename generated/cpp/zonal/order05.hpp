@@ -2,11 +2,16 @@
 // command : zonal-gen emit --order 5 --language cpp --out generated/cpp
 // table   : generator/tables/order05.json  sha256:8b6bd40f4c575e5b
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : factorize 20 mul 8 add 38 fma 0 other; per extra vector 20 mul 8 add 38 fma 0 other
-//           expand 22 mul 23 add 20 fma 0 other; per extra vector 22 mul 23 add 20 fma 0 other
-//           resample 22 mul 14 add 25 fma 0 other; per extra vector 22 mul 14 add 25 fma 0 other
-//           lobes 15 mul 12 add 15 fma 0 other; per extra vector 0 mul 0 add 0 fma 0 other
-//           rotate_zhf 205 mul 62 add 301 fma 0 other; per extra vector 100 mul 7 add 178 fma 0 other
+// cost    : factorize 20 mul 8 add 38 fma 0 other;
+//             per extra vector 20 mul 8 add 38 fma 0 other
+//           expand 22 mul 23 add 20 fma 0 other;
+//             per extra vector 22 mul 23 add 20 fma 0 other
+//           resample 22 mul 14 add 25 fma 0 other;
+//             per extra vector 22 mul 14 add 25 fma 0 other
+//           lobes 15 mul 12 add 15 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           rotate_zhf 205 mul 62 add 301 fma 0 other;
+//             per extra vector 100 mul 7 add 178 fma 0 other
 //           rotate: rotate_zhf
 // bound   : rotate_zhf none published for this table: see generator/tables/README.md
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11
@@ -17,7 +22,7 @@
 namespace zonal::order5 {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
-// ZONAL_NO_FMA: always a product and a sum (build with -ffp-contract=off for the same bits everywhere).
+// ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
 inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }

@@ -2,11 +2,16 @@
 // command : zonal-gen emit --order 6 --language cpp --out generated/cpp
 // table   : generator/tables/order06.json  sha256:8d97ac6e410e6d4d
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : factorize 35 mul 22 add 74 fma 0 other; per extra vector 35 mul 22 add 74 fma 0 other
-//           expand 34 mul 27 add 65 fma 0 other; per extra vector 34 mul 27 add 65 fma 0 other
-//           resample 33 mul 15 add 71 fma 0 other; per extra vector 33 mul 15 add 71 fma 0 other
-//           lobes 24 mul 15 add 12 fma 0 other; per extra vector 0 mul 0 add 0 fma 0 other
-//           rotate_zhf 363 mul 100 add 502 fma 0 other; per extra vector 176 mul 21 add 324 fma 0 other
+// cost    : factorize 35 mul 22 add 74 fma 0 other;
+//             per extra vector 35 mul 22 add 74 fma 0 other
+//           expand 34 mul 27 add 65 fma 0 other;
+//             per extra vector 34 mul 27 add 65 fma 0 other
+//           resample 33 mul 15 add 71 fma 0 other;
+//             per extra vector 33 mul 15 add 71 fma 0 other
+//           lobes 24 mul 15 add 12 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           rotate_zhf 363 mul 100 add 502 fma 0 other;
+//             per extra vector 176 mul 21 add 324 fma 0 other
 //           rotate: rotate_zhf
 // bound   : rotate_zhf none published for this table: see generator/tables/README.md
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11
@@ -17,7 +22,7 @@
 namespace zonal::order6 {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
-// ZONAL_NO_FMA: always a product and a sum (build with -ffp-contract=off for the same bits everywhere).
+// ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
 inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
