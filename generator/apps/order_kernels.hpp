@@ -12,7 +12,8 @@
 
 namespace zonal {
 
-inline constexpr int kSmallestOrder = 2;
+/// Band 2 is the first whose lobes can be chosen.
+inline constexpr int kSmallestOrder = 3;
 inline constexpr int kLargestOrder = 20;
 /// Digits of a table's sha256 that banners and the file of bounds name it by.
 inline constexpr int kHashDigits = 16;

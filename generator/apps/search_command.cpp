@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/order_kernels.hpp"
 #include "exact/angles.hpp"
 #include "lobe_table.hpp"
 #include "output_file.hpp"
@@ -19,7 +20,6 @@
 namespace zonal {
 namespace {
 
-constexpr int kSmallestOrder = 2, kLargestOrder = 20;
 constexpr double kSecondsBetweenSaves = 5;
 
 /// Set by Ctrl-C: the search ends after its generation and the best is kept.
@@ -132,16 +132,17 @@ LobeTable table_of(const Options& options, const search::Solution& solution, int
     return table;
 }
 
-void check_order(int order) {
-    if (order >= kSmallestOrder && order <= kLargestOrder) return;
-    throw UserError(fmt::format("--order: found {}, wanted {} to {}{}", order, kSmallestOrder, kLargestOrder,
-                                order == 1 ? "; order 1 is a constant and has no lobes to seek" : ""));
-}
-
 /// Fails before a long search, not after it.
 void check_is_writable(const std::filesystem::path& path) {
     const std::filesystem::path probe = path.string() + ".probe";
-    write_file_atomically(probe, "");
+    try {
+        write_file_atomically(probe, "");
+    } catch (const UserError&) {
+        throw UserError(
+            fmt::format("--out {}: nothing can be written beside it; mend the permissions of its "
+                        "folder or choose another file",
+                        path.string()));
+    }
     std::filesystem::remove(probe);
 }
 
@@ -184,7 +185,7 @@ void add_search_command(CLI::App& app) {
         app.add_subcommand("search", "seek lobe directions for an order and save them as a table");
     const auto options = std::make_shared<Options>();
     Options& o = *options;
-    command->add_option("--order", o.order, "number of bands, 2 to 20")->required();
+    command->add_option("--order", o.order, "number of bands, 3 to 20")->required();
     command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
         ->required();
     command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();

@@ -1,118 +1,62 @@
-// The small language of angles in lobe tables, read by recursive descent:
-//   sum = product { (+|-) product },  product = factor { (*|/) factor },
-//   factor = - factor | ( sum ) | sqrt ( sum ) | acos ( sum ) | pi | number.
-
+// The small language of angles in lobe tables, as a Boost.Spirit grammar.
 #include "exact/angles.hpp"
 
 #include <boost/math/constants/constants.hpp>
+#include <boost/spirit/home/x3.hpp>
 #include <stdexcept>
 #include <string>
 
 namespace zonal::exact {
 namespace {
 
-class Reader {
-  public:
-    explicit Reader(std::string_view text) : text_(text) {}
+namespace x3 = boost::spirit::x3;
 
-    Real whole() {
-        const Real value = sum();
-        skip_blanks();
-        if (place_ != text_.size()) fail();
-        return value;
-    }
+const x3::rule<struct SumRule, Real> sum = "sum";
+const x3::rule<struct ProductRule, Real> product = "product";
+const x3::rule<struct FactorRule, Real> factor = "factor";
 
-  private:
-    Real sum() {
-        Real value = product();
-        while (true) {
-            if (take("+")) {
-                value += product();
-            } else if (take("-")) {
-                value -= product();
-            } else {
-                return value;
-            }
-        }
-    }
-
-    Real product() {
-        Real value = factor();
-        while (true) {
-            if (take("*")) {
-                value *= factor();
-            } else if (take("/")) {
-                const Real divisor = factor();
-                if (divisor == 0) fail();
-                value /= divisor;
-            } else {
-                return value;
-            }
-        }
-    }
-
-    Real factor() {
-        if (take("-")) return -factor();
-        if (take("sqrt")) {
-            const Real radicand = parenthesised();
-            if (radicand < 0) fail();
-            return sqrt(radicand);
-        }
-        if (take("acos")) {
-            const Real cosine = parenthesised();
-            if (abs(cosine) > 1) fail();
-            return acos(cosine);
-        }
-        if (take("pi")) return boost::math::constants::pi<Real>();
-        return next() == '(' ? parenthesised() : number();
-    }
-
-    Real parenthesised() {
-        if (!take("(")) fail();
-        const Real value = sum();
-        if (!take(")")) fail();
-        return value;
-    }
-
-    Real number() {
-        skip_blanks();
-        const std::size_t length =
-            std::min(text_.find_first_not_of("0123456789.", place_), text_.size()) - place_;
-        const std::string_view digits = text_.substr(place_, length);
-        const bool has_digit = digits.find_first_not_of('.') != std::string_view::npos;
-        if (!has_digit || digits.find('.') != digits.rfind('.')) fail();
-        place_ += length;
-        return Real{std::string(digits)};
-    }
-
-    bool take(std::string_view word) {
-        skip_blanks();
-        if (text_.substr(place_, word.size()) != word) return false;
-        place_ += word.size();
-        return true;
-    }
-
-    char next() {
-        skip_blanks();
-        return place_ < text_.size() ? text_[place_] : '\0';
-    }
-
-    void skip_blanks() {
-        while (place_ < text_.size() && text_[place_] == ' ') ++place_;
-    }
-
-    [[noreturn]] void fail() const {
-        throw std::invalid_argument("cannot read \"" + std::string(text_) + "\" from character " +
-                                    std::to_string(place_ + 1));
-    }
-
-    std::string_view text_;
-    std::size_t place_ = 0;
+const auto assign = [](auto& c) { x3::_val(c) = x3::_attr(c); };
+const auto add = [](auto& c) { x3::_val(c) += x3::_attr(c); };
+const auto subtract = [](auto& c) { x3::_val(c) -= x3::_attr(c); };
+const auto multiply = [](auto& c) { x3::_val(c) *= x3::_attr(c); };
+const auto negate = [](auto& c) { x3::_val(c) = -x3::_attr(c); };
+// What has no value does not match.
+const auto divide = [](auto& c) {
+    x3::_pass(c) = x3::_attr(c) != 0;
+    if (x3::_pass(c)) x3::_val(c) /= x3::_attr(c);
 };
+const auto square_root = [](auto& c) {
+    x3::_pass(c) = x3::_attr(c) >= 0;
+    if (x3::_pass(c)) x3::_val(c) = sqrt(x3::_attr(c));
+};
+const auto arc_cosine = [](auto& c) {
+    x3::_pass(c) = abs(x3::_attr(c)) <= 1;
+    if (x3::_pass(c)) x3::_val(c) = acos(x3::_attr(c));
+};
+const auto pi = [](auto& c) { x3::_val(c) = boost::math::constants::pi<Real>(); };
+const auto decimal = [](auto& c) {
+    x3::_val(c) = Real{std::string(x3::_attr(c).begin(), x3::_attr(c).end())};
+};
+
+const auto parenthesised = '(' >> sum >> ')';
+const auto sum_def = product[assign] >> *('+' >> product[add] | '-' >> product[subtract]);
+const auto product_def = factor[assign] >> *('*' >> factor[multiply] | '/' >> factor[divide]);
+const auto factor_def = '-' >> factor[negate] | "sqrt" >> parenthesised[square_root] |
+                        "acos" >> parenthesised[arc_cosine] | x3::lit("pi")[pi] | parenthesised[assign] |
+                        x3::raw[x3::lexeme[+x3::digit >> -('.' >> *x3::digit)]][decimal];
+
+BOOST_SPIRIT_DEFINE(sum, product, factor)
 
 }  // namespace
 
-Real evaluate_closed_form(std::string_view text) { return Reader(text).whole(); }
+Real evaluate_closed_form(std::string_view text) {
+    Real value;
+    auto place = text.begin();
+    if (!x3::phrase_parse(place, text.end(), sum, x3::blank, value) || place != text.end())
+        throw std::invalid_argument("cannot read \"" + std::string(text) + "\" from character " +
+                                    std::to_string(place - text.begin() + 1));
+    return value;
+}
 
 std::string decimal_text(const Real& value) { return value.str(50, std::ios_base::fmtflags{}); }
 

@@ -111,14 +111,21 @@ LobeSet Population::cross_angles(const LobeSet& mother, const LobeSet& father) {
     return child;
 }
 
+/// A candidate that the set does not hold yet. Few bands have few candidates, so there may be none: then one
+/// that it holds, which makes it singular.
+Lobe Population::random_lobe_outside(const LobeSet& lobes) {
+    Lobe lobe = grid_->random(random_);
+    for (int trial = 0; trial < 100 && contains(lobes, lobe); ++trial) lobe = grid_->random(random_);
+    return lobe;
+}
+
 LobeSet Population::cross_lobes(const LobeSet& mother, const LobeSet& father) {
     LobeSet child;
     for (std::size_t d = 0; d < mother.size(); ++d) {
         Lobe first = mother[d], second = father[d];
         if (random_.chance(0.5)) std::swap(first, second);
         if (contains(child, first)) first = second;
-        while (contains(child, first)) first = grid_->random(random_);
-        child.push_back(first);
+        child.push_back(contains(child, first) ? random_lobe_outside(child) : first);
     }
     return child;
 }
@@ -139,9 +146,7 @@ void Population::mutate_lobes(LobeSet& lobes) {
     for (Lobe& lobe : lobes) {
         // A lobe has two angles, so it changes twice as often as an angle.
         if (!random_.chance(2 * settings_.mutation_rate)) continue;
-        Lobe other = lobe;
-        while (contains(lobes, other)) other = grid_->random(random_);
-        lobe = other;
+        lobe = random_lobe_outside(lobes);
     }
 }
 

@@ -65,6 +65,7 @@ class Population {
     const LobeSet& draw_parent();
     LobeSet cross_angles(const LobeSet& mother, const LobeSet& father);
     LobeSet cross_lobes(const LobeSet& mother, const LobeSet& father);
+    Lobe random_lobe_outside(const LobeSet& lobes);
     void mutate_angles(LobeSet& lobes);
     void mutate_lobes(LobeSet& lobes);
     void sort();

@@ -41,7 +41,7 @@ inline constexpr double kZeroInDouble = 1e-9;
 /// A band whose ||Â_l||_F^2 in double is not below this is singular. (The ideal is 4 pi.)
 inline constexpr double kSingularSquaredNorm = 1e10;
 
-/// The same at 50 digits, with entries zero and |values| equal below `exact::kZeroThreshold`.
+/// `band_cost` at 50 digits, with entries zero and |values| equal below `exact::kZeroThreshold`.
 BandCost band_cost(const exact::Matrix<exact::Real>& a_hat);
 
 /// Judges a set of lobes. Smaller cost is better; a singular set is worse than any other.

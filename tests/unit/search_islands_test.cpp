@@ -52,6 +52,13 @@ TEST(Search, raised_stop_flag_ends_after_one_generation_and_keeps_the_best) {
     EXPECT_LE(result.best.score.condition, 50);
 }
 
+TEST(Search, order_2_takes_the_axes_though_it_has_no_other_candidates) {
+    const Problem problem = Problem::shared(2);
+    const SearchResult result = search_lobes(problem, settings_for(problem, 2), kNoStop);
+    EXPECT_EQ(result.best.score.zeros, 6);
+    EXPECT_NEAR(result.best.score.condition, 1, 1e-12);
+}
+
 TEST(Search, ends_by_itself_when_nothing_improves) {
     const Problem problem = Problem::shared(3);
     SearchSettings settings = settings_for(problem, 0);
