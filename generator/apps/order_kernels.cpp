@@ -19,7 +19,8 @@ std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path
     if (!stream) return {};
     std::map<std::string, emit::Bound> bounds;
     try {
-        for (const auto& entry : nlohmann::json::parse(stream).at("bounds"))
+        const auto file = nlohmann::json::parse(stream);
+        for (const auto& entry : file.at("bounds"))
             if (entry.at("order") == table.order && entry.at("table") == table.sha256.substr(0, kHashDigits))
                 bounds[entry.at("kernel")] = {entry.at("float"), entry.at("double")};
     } catch (const nlohmann::json::exception& error) {
