@@ -71,7 +71,9 @@ class Graph {
     std::string scope_;
 };
 
-/// A handle that lets builders write formulas: `x * x - y * y`.
+/// A handle that lets builders write formulas: `x * y + z`. An expression makes at most one product beside
+/// values that have a name: C++ leaves the order of operands to the compiler, and nodes are numbered as they
+/// are made.
 struct Value {
     Graph* graph = nullptr;
     Id id = -1;

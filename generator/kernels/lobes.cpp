@@ -78,7 +78,7 @@ class LobeHarmonics {
     Power power(int m) {
         const auto known = powers_.find(m);
         if (known != powers_.end()) return known->second;
-        const Power p = m == 2 ? Power{x_ * x_ - y_ * y_, (x_ + x_) * y_} : next(power(m - 1));
+        const Power p = m == 2 ? square() : next(power(m - 1));
         name(p.cosine, fmt::format("c{}", m));
         name(p.sine, fmt::format("s{}", m));
         return powers_[m] = p;
@@ -100,7 +100,11 @@ class LobeHarmonics {
             case 3:
                 q = z_ * square_minus(a + recurrence(l - 2, m));
                 break;
-            default:
+            default: {
+                const Value before = a * legendre(l - 2, m);
+                const Value last = z_ * legendre(l - 1, m);
+                q = last - before;
+            }
                 q = z_ * legendre(l - 1, m) - a * legendre(l - 2, m);
         }
         name(q, fmt::format("q{}_{}", l, m));
@@ -119,7 +123,22 @@ class LobeHarmonics {
     }
     /// q_{l+1}^m = z q_l^m - recurrence(l, m) q_{l-1}^m
     static Real recurrence(int l, int m) { return Real(l * l - m * m) / (4 * l * l - 1); }
-    Power next(const Power& p) const { return {x_ * p.cosine - y_ * p.sine, x_ * p.sine + y_ * p.cosine}; }
+    // One product a line: the order in which C++ evaluates two operands is the compiler's choice, and the
+    // order in which nodes are made shows in the emitted code.
+    Power square() const {
+        const Value y_y = y_ * y_;
+        const Value x_x = x_ * x_;
+        const Value cosine = x_x - y_y;
+        return {cosine, (x_ + x_) * y_};
+    }
+    Power next(const Power& p) const {
+        const Value y_sine = y_ * p.sine;
+        const Value x_cosine = x_ * p.cosine;
+        const Value cosine = x_cosine - y_sine;
+        const Value y_cosine = y_ * p.cosine;
+        const Value x_sine = x_ * p.sine;
+        return {cosine, x_sine + y_cosine};
+    }
     void name(Value value, const std::string& meaning) {
         kernel_.graph.set_name(value.id, fmt::format("{}_d{}", meaning, lobe_));
     }
