@@ -163,6 +163,12 @@ class BodyPrinter {
             case Op::fused:
                 return fmt::format("fma({}, {}, {})", operand(node.operands[0], node.negated_product),
                                    text(1), operand(node.operands[2], node.negated_addend));
+            case Op::divide:
+                return fmt::format("{} / {}", text(0), text(1));
+            case Op::square_root:
+                return fmt::format("sqrt({})", text(0));
+            case Op::copy_sign:
+                return fmt::format("copysign({}, {})", text(0), text(1));
             case Op::constant:
             case Op::input:
                 break;

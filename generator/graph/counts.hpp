@@ -5,7 +5,8 @@
 namespace zonal::graph {
 
 /// Operations of one kind of value. A minus sign alone is no operation: it is part of the literal or of the
-/// instruction beside it. `add` counts additions and subtractions, `other` divisions and roots.
+/// instruction beside it. `add` counts additions and subtractions, `other` divisions and
+/// roots; to copy a sign is a bitwise matter and counts as little as a minus sign.
 struct Counts {
     int mul = 0;
     int add = 0;
@@ -26,7 +27,7 @@ struct Cost {
     Counts total() const { return per_rotation + per_vector; }
 };
 
-/// Counts every computed node of an optimized kernel (none is dead).
-Cost count_operations(const Kernel& kernel);
+/// Counts the computed nodes of an optimized kernel (none is dead) whose scope starts with `scope`.
+Cost count_operations(const Kernel& kernel, const std::string& scope = "");
 
 }  // namespace zonal::graph

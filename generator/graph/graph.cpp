@@ -11,23 +11,28 @@ Kind joined(Kind a, Kind b) { return std::max(a, b); }
 
 }  // namespace
 
+Id Graph::append(Node node) {
+    node.scope = scope_;
+    nodes_.push_back(std::move(node));
+    return size() - 1;
+}
+
 Id Graph::intern(Node node) {
-    // 45 digits tell constants apart that differ, and join those that two derivations made equal.
-    const std::string value =
-        node.op == Op::constant ? node.value.str(45, std::ios::scientific) : std::string{};
-    Key key{node.op, node.operands, node.negated_product, node.negated_addend, value, node.array, node.index};
+    Key key{node.op, node.operands, node.negated_product, node.negated_addend, node.array, node.index};
     const auto [entry, is_new] = known_.try_emplace(std::move(key), size());
-    if (is_new) {
-        node.scope = scope_;
-        nodes_.push_back(std::move(node));
-    }
+    if (is_new) append(std::move(node));
     return entry->second;
 }
 
 Id Graph::constant(const Number& value) {
-    Node node;
-    node.value = value;
-    return intern(std::move(node));
+    // 45 digits tell constants apart that differ, and join those that two derivations made equal.
+    const auto [entry, is_new] = constants_.try_emplace(value.str(45, std::ios::scientific), size());
+    if (is_new) {
+        Node node;
+        node.value = value;
+        append(std::move(node));
+    }
+    return entry->second;
 }
 
 Id Graph::input(Kind kind, int array, int index) {
@@ -42,7 +47,6 @@ Id Graph::input(Kind kind, int array, int index) {
 Id Graph::negate(Id a) {
     if (nodes_[a].op == Op::constant) return constant(-nodes_[a].value);
     if (nodes_[a].op == Op::negate) return nodes_[a].operands[0];
-    if (nodes_[a].op == Op::subtract) return subtract(nodes_[a].operands[1], nodes_[a].operands[0]);
     Node node;
     node.op = Op::negate;
     node.kind = nodes_[a].kind;
@@ -51,7 +55,7 @@ Id Graph::negate(Id a) {
 }
 
 Id Graph::add(Id a, Id b) {
-    const Node left = nodes_[a], right = nodes_[b];
+    const Node &left = nodes_[a], &right = nodes_[b];  // until a node is made
     if (left.op == Op::constant && right.op == Op::constant) return constant(left.value + right.value);
     if (left.op == Op::constant && left.value == 0) return b;
     if (right.op == Op::constant && right.value == 0) return a;
@@ -67,7 +71,7 @@ Id Graph::add(Id a, Id b) {
 }
 
 Id Graph::subtract(Id a, Id b) {
-    const Node left = nodes_[a], right = nodes_[b];
+    const Node &left = nodes_[a], &right = nodes_[b];  // until a node is made
     if (right.op == Op::constant) return add(a, constant(-right.value));
     if (left.op == Op::constant && left.value == 0) return negate(b);
     if (a == b) return constant(0);
@@ -75,15 +79,20 @@ Id Graph::subtract(Id a, Id b) {
         throw std::logic_error("a signal value can only be subtracted from a signal value");
     if (right.op == Op::negate) return add(a, right.operands[0]);
     if (left.op == Op::negate) return negate(add(left.operands[0], b));
+    // a - b and b - a share one node.
+    return a < b ? signed_subtract(a, b) : negate(signed_subtract(b, a));
+}
+
+Id Graph::signed_subtract(Id a, Id b) {
     Node node;
     node.op = Op::subtract;
-    node.kind = joined(left.kind, right.kind);
+    node.kind = joined(nodes_[a].kind, nodes_[b].kind);
     node.operands = {a, b};
     return intern(std::move(node));
 }
 
 Id Graph::multiply(Id a, Id b) {
-    const Node left = nodes_[a], right = nodes_[b];
+    const Node &left = nodes_[a], &right = nodes_[b];   // until a node is made
     if (left.kind > right.kind) return multiply(b, a);  // the scalar stands on the left
     if (left.kind == Kind::signal) throw std::logic_error("signal values cannot be multiplied by each other");
     if (left.op == Op::constant) {
@@ -119,6 +128,23 @@ Id Graph::fused(Id a, Id b, Id c, bool negated_product, bool negated_addend) {
     node.negated_addend = negated_addend;
     return intern(std::move(node));
 }
+
+Id Graph::rotation_scalar(Op op, std::vector<Id> operands) {
+    for (const Id operand : operands)
+        if (nodes_[operand].kind == Kind::signal)
+            throw std::logic_error("a signal value has no quotient, root or sign");
+    Node node;
+    node.op = op;
+    node.kind = Kind::rotation;
+    node.operands = std::move(operands);
+    return intern(std::move(node));
+}
+
+Id Graph::divide(Id a, Id b) { return rotation_scalar(Op::divide, {a, b}); }
+
+Id Graph::square_root(Id a) { return rotation_scalar(Op::square_root, {a}); }
+
+Id Graph::copy_sign(Id size, Id sign) { return rotation_scalar(Op::copy_sign, {size, sign}); }
 
 void Graph::set_name(Id id, const std::string& name) {
     if (nodes_[id].name.empty()) nodes_[id].name = name;

@@ -16,7 +16,9 @@ using Number = boost::multiprecision::cpp_bin_float_50;
 enum class Kind { constant, rotation, signal };
 
 /// `fused` is (±a) * b ± c, rounded once where the target can.
-enum class Op { constant, input, negate, add, subtract, multiply, fused };
+/// `copy_sign` is the first operand's size with the second one's sign. Division, root and copied sign make
+/// rotation scalars only.
+enum class Op { constant, input, negate, add, subtract, multiply, fused, divide, square_root, copy_sign };
 
 /// Names a node of one graph; smaller ids were made earlier, so ids are a topological order.
 using Id = int;
@@ -24,7 +26,7 @@ using Id = int;
 struct Node {
     Op op = Op::constant;
     Kind kind = Kind::constant;
-    std::vector<Id> operands;  ///< add, subtract: 2; multiply: 2, the scalar first; fused: a, b, c; negate: 1
+    std::vector<Id> operands;  ///< in the order they are written; multiply: the scalar first; fused: a, b, c
     bool negated_product = false;  ///< fused only
     bool negated_addend = false;   ///< fused only
     Number value = 0;              ///< constant only
@@ -47,10 +49,15 @@ class Graph {
     Id subtract(Id a, Id b);
     Id multiply(Id a, Id b);
     Id negate(Id a);
+    Id divide(Id a, Id b);
+    Id square_root(Id a);
+    Id copy_sign(Id size, Id sign);
     /// (±a) * b ± c. For passes; builders write products and sums.
     Id fused(Id a, Id b, Id c, bool negated_product, bool negated_addend);
-    /// The product with a signed constant kept as it is. For passes.
+    /// The product with a signed constant kept as it is, the difference the way round it is written. For
+    /// passes.
     Id signed_multiply(Id a, Id b);
+    Id signed_subtract(Id a, Id b);
 
     const Node& operator[](Id id) const { return nodes_[id]; }
     int size() const { return static_cast<int>(nodes_.size()); }
@@ -63,11 +70,14 @@ class Graph {
     void copy_labels(Id id, const Node& from);
 
   private:
-    using Key = std::tuple<Op, std::vector<Id>, bool, bool, std::string, int, int>;
+    using Key = std::tuple<Op, std::vector<Id>, bool, bool, int, int>;
     Id intern(Node node);
+    Id append(Node node);
+    Id rotation_scalar(Op op, std::vector<Id> operands);
 
     std::vector<Node> nodes_;
-    std::map<Key, Id> known_;
+    std::map<std::string, Id> constants_;  ///< by their digits
+    std::map<Key, Id> known_;              ///< all others
     std::string scope_;
 };
 
@@ -81,7 +91,15 @@ struct Value {
 inline Value operator+(Value a, Value b) { return {a.graph, a.graph->add(a.id, b.id)}; }
 inline Value operator-(Value a, Value b) { return {a.graph, a.graph->subtract(a.id, b.id)}; }
 inline Value operator*(Value a, Value b) { return {a.graph, a.graph->multiply(a.id, b.id)}; }
+inline Value operator/(Value a, Value b) { return {a.graph, a.graph->divide(a.id, b.id)}; }
 inline Value operator-(Value a) { return {a.graph, a.graph->negate(a.id)}; }
+inline Value sqrt(Value a) { return {a.graph, a.graph->square_root(a.id)}; }
+inline Value copysign(const Number& size, Value sign) {
+    return {sign.graph, sign.graph->copy_sign(sign.graph->constant(size), sign.id)};
+}
+inline Value operator/(const Number& a, Value b) {
+    return {b.graph, b.graph->divide(b.graph->constant(a), b.id)};
+}
 inline Value operator*(const Number& a, Value b) {
     return {b.graph, b.graph->multiply(b.graph->constant(a), b.id)};
 }

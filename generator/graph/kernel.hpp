@@ -32,6 +32,9 @@ struct Kernel {
     Array output;
     Graph graph;
     std::vector<Store> stores;
+    bool needs_proper_rotation = false;  ///< right for determinant +1 only
+    /// The kernel to call instead where a signal value holds several channels; empty: this one.
+    std::string for_channels;
     /// What is added to the published error bound, by the rotation's own fault; empty: no bound is published.
     std::string bound_excess;
 

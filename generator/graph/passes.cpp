@@ -38,10 +38,19 @@ Id rebuild(Graph& graph, const Node& node, const std::vector<Id>& moved) {
             id = graph.add(operand(0), operand(1));
             break;
         case Op::subtract:
-            id = graph.subtract(operand(0), operand(1));
+            id = graph.signed_subtract(operand(0), operand(1));
             break;
         case Op::multiply:
             id = graph.signed_multiply(operand(0), operand(1));
+            break;
+        case Op::divide:
+            id = graph.divide(operand(0), operand(1));
+            break;
+        case Op::square_root:
+            id = graph.square_root(operand(0));
+            break;
+        case Op::copy_sign:
+            id = graph.copy_sign(operand(0), operand(1));
             break;
         case Op::fused:
             id = graph.fused(operand(0), operand(1), operand(2), node.negated_product, node.negated_addend);
@@ -109,12 +118,14 @@ Kernel absorb_negations(const Kernel& kernel) {
         Id id = -1;
         if (inner.op == Op::multiply && graph[inner.operands[0]].op == Op::constant) {
             id = graph.signed_multiply(graph.constant(-graph[inner.operands[0]].value), inner.operands[1]);
+        } else if (inner.op == Op::subtract) {
+            id = graph.signed_subtract(inner.operands[1], inner.operands[0]);
         } else if (inner.op == Op::fused) {
             id = graph.fused(inner.operands[0], inner.operands[1], inner.operands[2], !inner.negated_product,
                              !inner.negated_addend);
         }
         if (id < 0) continue;
-        graph.set_name(id, inner.name);
+        graph.copy_labels(id, inner);
         store.value = id;
     }
     return result;
@@ -134,6 +145,38 @@ Kernel remove_dead(const Kernel& kernel) {
         if (is_needed[id]) moved[id] = rebuild(result.graph, old[id], moved);
     for (Store& store : result.stores) store.value = moved[store.value];
     return result;
+}
+
+Halves split_by_kind(const Kernel& kernel) {
+    const Graph& old = kernel.graph;
+    Halves halves{kernel, without_graph(kernel)};
+    halves.prepare.stores.clear();
+    Graph& graph = halves.apply.graph;
+    std::vector<Id> moved(old.size(), -1);
+    const auto move_scalar = [&](Id id) {
+        if (moved[id] >= 0) return;
+        const int index = static_cast<int>(halves.prepare.stores.size());
+        moved[id] = graph.input(Kind::rotation, 0, index);
+        graph.copy_labels(moved[id], old[id]);
+        halves.prepare.stores.push_back({index, id, 0});
+    };
+    for (Id id = 0; id < old.size(); ++id) {
+        const Node& node = old[id];
+        if (node.kind == Kind::constant) moved[id] = rebuild(graph, node, moved);
+        if (node.kind != Kind::signal) continue;
+        for (const Id operand : node.operands)
+            if (old[operand].kind == Kind::rotation) move_scalar(operand);
+        moved[id] = rebuild(graph, node, moved);
+    }
+    for (Store& store : halves.apply.stores) store.value = moved[store.value];
+    const int count = static_cast<int>(halves.prepare.stores.size());
+    halves.apply.inputs[0].size = count;
+    halves.prepare.inputs.resize(1);
+    halves.prepare.output.kind = Kind::rotation;
+    halves.prepare.output.size = count;
+    halves.prepare = remove_dead(halves.prepare);
+    halves.apply = remove_dead(halves.apply);
+    return halves;
 }
 
 Kernel optimize(const Kernel& kernel) {

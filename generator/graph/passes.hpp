@@ -14,8 +14,17 @@ Kernel absorb_negations(const Kernel& kernel);
 /// Drops what no output needs. Order, names and scopes stay.
 Kernel remove_dead(const Kernel& kernel);
 
-/// All of the above, in the order that every kernel is emitted with. (Folding of constants and sharing of
-/// equal expressions happen while a graph is built.)
+/// The two halves of a kernel for many vectors of one rotation. `prepare` stores the rotation scalars that
+/// signal values are multiplied by, in the order they are needed; `apply` takes them in place of the rotation
+/// (input 0). Names and texts of both are the caller's.
+struct Halves {
+    Kernel prepare;
+    Kernel apply;
+};
+Halves split_by_kind(const Kernel& kernel);
+
+/// All of the above but the split, in the order that every kernel is emitted with. (Folding of constants and
+/// sharing of equal expressions happen while a graph is built.)
 Kernel optimize(const Kernel& kernel);
 
 }  // namespace zonal::graph

@@ -105,7 +105,6 @@ class LobeHarmonics {
                 const Value last = z_ * legendre(l - 1, m);
                 q = last - before;
             }
-                q = z_ * legendre(l - 1, m) - a * legendre(l - 2, m);
         }
         name(q, fmt::format("q{}_{}", l, m));
         return legendre_[{l, m}] = q;

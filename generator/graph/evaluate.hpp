@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "graph/schedule.hpp"
+
+namespace zonal::graph {
+
+/// Runs a kernel in floating-point type T as printed code with fused instructions would: the same operations
+/// on constants rounded to T. `inputs` holds one pointer an input array; the output must not be one of them.
+template <class T>
+class Evaluator {
+  public:
+    explicit Evaluator(const Kernel& kernel) : kernel_(kernel), values_(kernel.graph.size()) {
+        for (Id id = 0; id < kernel.graph.size(); ++id)
+            if (kernel.graph[id].op == Op::constant)
+                values_[id] = static_cast<T>(static_cast<double>(kernel.graph[id].value));
+    }
+
+    void operator()(const std::vector<const T*>& inputs, T* output) {
+        for (Id id = 0; id < kernel_.graph.size(); ++id) values_[id] = compute(id, inputs);
+        for (const Store& store : kernel_.stores) output[store.index] = values_[store.value];
+    }
+
+  private:
+    T compute(Id id, const std::vector<const T*>& inputs) const {
+        const Node& node = kernel_.graph[id];
+        const auto operand = [&](int k) { return values_[node.operands[k]]; };
+        switch (node.op) {
+            case Op::constant:
+                return values_[id];
+            case Op::input:
+                return inputs[node.array][node.index];
+            case Op::negate:
+                return -operand(0);
+            case Op::add:
+                return operand(0) + operand(1);
+            case Op::subtract:
+                return operand(0) - operand(1);
+            case Op::multiply:
+                return operand(0) * operand(1);
+            case Op::fused:
+                return std::fma(node.negated_product ? -operand(0) : operand(0), operand(1),
+                                node.negated_addend ? -operand(2) : operand(2));
+            case Op::divide:
+                return operand(0) / operand(1);
+            case Op::square_root:
+                return std::sqrt(operand(0));
+            case Op::copy_sign:
+                return std::copysign(operand(0), operand(1));
+        }
+        return T(0);
+    }
+
+    const Kernel& kernel_;
+    std::vector<T> values_;
+};
+
+}  // namespace zonal::graph

@@ -1,0 +1,82 @@
+#include "kernels/angle_powers.hpp"
+
+#include <fmt/format.h>
+
+namespace zonal::kernels {
+
+using graph::Number;
+using graph::Value;
+
+AnglePowers::AnglePowers(graph::Kernel& kernel, std::string name, Value cosine, Value sine, PowerChain chain,
+                         bool only_odd_above_2)
+    : kernel_(kernel), name_(std::move(name)), chain_(chain), only_odd_above_2_(only_odd_above_2) {
+    powers_[1] = {cosine, sine};
+}
+
+Value AnglePowers::twice_cosine(int m) {
+    const auto known = twice_cosines_.find(m);
+    if (known != twice_cosines_.end()) return known->second;
+    kernel_.graph.set_scope(name_);
+    const Value value = cosine(m) + cosine(m);
+    kernel_.graph.set_name(value.id, fmt::format("{}_2c{}", name_, m));
+    return twice_cosines_[m] = value;
+}
+
+Value AnglePowers::twice_sine(int m) {
+    const auto known = twice_sines_.find(m);
+    if (known != twice_sines_.end()) return known->second;
+    kernel_.graph.set_scope(name_);
+    const Value value = sine(m) + sine(m);
+    kernel_.graph.set_name(value.id, fmt::format("{}_2s{}", name_, m));
+    return twice_sines_[m] = value;
+}
+
+AnglePowers::Power AnglePowers::power(int m) {
+    const auto known = powers_.find(m);
+    if (known != powers_.end()) return known->second;
+    const Power made = make(m);
+    kernel_.graph.set_name(made.cosine.id, fmt::format("{}_c{}", name_, m));
+    kernel_.graph.set_name(made.sine.id, fmt::format("{}_s{}", name_, m));
+    return powers_[m] = made;
+}
+
+AnglePowers::Power AnglePowers::make(int m) {
+    // One product a line: see graph::Value.
+    if (m == 2) {
+        const Value d = twice_cosine(1);
+        kernel_.graph.set_scope(name_);
+        const Value sine = d * powers_[1].sine;
+        if (squared_sine_.graph != nullptr)
+            return {powers_[1].cosine * powers_[1].cosine - squared_sine_, sine};
+        return {d * powers_[1].cosine + Number(-1), sine};
+    }
+    if (chain_ == PowerChain::recurrence) {
+        if (only_odd_above_2_ && m % 2 == 1) {
+            // c_m = 2c_2 c_{m-2} - c_{m-4}, where c_{-1} = c_1 and s_{-1} = -s_1.
+            const Value e = twice_cosine(2);
+            const Power last = power(m - 2), before = m == 3 ? power(1) : power(m - 4);
+            kernel_.graph.set_scope(name_);
+            const Value cosine = e * last.cosine - before.cosine;
+            const Value product = e * last.sine;
+            return {cosine, m == 3 ? product + before.sine : product - before.sine};
+        }
+        const Value d = twice_cosine(1);
+        const Power last = power(m - 1), before = power(m - 2);
+        kernel_.graph.set_scope(name_);
+        const Value cosine = d * last.cosine - before.cosine;
+        const Value sine = d * last.sine - before.sine;
+        return {cosine, sine};
+    }
+    const Power a = power(m / 2), b = power(m - m / 2);
+    kernel_.graph.set_scope(name_);
+    const Value ss = a.sine * b.sine;
+    const Value cosine = a.cosine * b.cosine - ss;
+    if (m % 2 == 0) {
+        const Value sine = twice_cosine(m / 2) * a.sine;
+        return {cosine, sine};
+    }
+    const Value cs = a.cosine * b.sine;
+    return {cosine, a.sine * b.cosine + cs};
+}
+
+}  // namespace zonal::kernels

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "graph/kernel.hpp"
+#include "kernels/rotation_scalars.hpp"
+
+namespace zonal::kernels {
+
+/// Turns band 1, 2 or 3 of the kernel's input 1 as a vector or a symmetric traceless tensor, and stores it:
+/// no division, root, branch or pole; mirrors exact. 9, 35 and 99 instructions for one vector.
+void build_contraction_band(graph::Kernel& kernel, const Matrix3& rows, int l);
+
+/// Band 2 in 31 instructions a vector and 4 a rotation. Precondition: determinant +1.
+void build_proper_contraction_band_2(graph::Kernel& kernel, const Matrix3& rows);
+
+/// The largest band that a contraction is known for.
+inline constexpr int kLargestContractionBand = 3;
+
+}  // namespace zonal::kernels

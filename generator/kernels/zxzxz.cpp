@@ -1,0 +1,396 @@
+// One band turned as Z(α) Y(β) Z(γ), Y(β) = X Z(β) Xᵀ, with neither an angle nor a pole.
+//
+// X, a quarter turn about the x axis, is constant and falls into four blocks: for each parity of m one whose
+// y-polar orders are +m, one whose are -m. A z rotation mixes orders +m and -m only, so that a band is two
+// parts, the even and the odd m, each of a block J (+m) and a block K (-m). The forms of a part differ in
+// what they cost once per rotation and once per vector. Sources: Pinchon and Hoggan 2007 (rotation by a
+// constant matrix and z rotations); the parameters without angles, the blocks and the forms: README,
+// "Methods".
+#include "kernels/zxzxz.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+#include "exact/orthogonal_block.hpp"
+#include "exact/quarter_turn.hpp"
+#include "graph/sum.hpp"
+
+namespace zonal::kernels {
+
+namespace {
+
+using exact::OrthogonalBlock;
+using exact::QuarterTurnBlock;
+using exact::Real;
+using graph::Graph;
+using graph::Number;
+using graph::Value;
+
+/// A block of X with its factorization and, for the scaled form, the row matched to each column.
+struct Block {
+    QuarterTurnBlock x;
+    OrthogonalBlock steps;
+    std::vector<int> matched_row;
+
+    int size() const { return static_cast<int>(x.rows.size()); }
+    Real scale(int j) const { return abs(x.matrix(matched_row[j], j)); }
+};
+
+/// The matching of rows to columns whose entries have the largest product: by subsets of rows.
+std::vector<int> best_matching(const exact::Matrix<Real>& matrix) {
+    const int n = static_cast<int>(matrix.rows());
+    std::vector<double> best(1 << n, -1.0);
+    std::vector<int> last(1 << n, -1);
+    best[0] = 1;
+    for (int subset = 1; subset < (1 << n); ++subset) {
+        const int column = __builtin_popcount(static_cast<unsigned>(subset)) - 1;
+        for (int row = 0; row < n; ++row) {
+            if (!((subset >> row) & 1)) continue;
+            const double size =
+                best[subset ^ (1 << row)] * std::abs(static_cast<double>(matrix(row, column)));
+            if (size > best[subset] * (1 + 1e-9)) {
+                best[subset] = size;
+                last[subset] = row;
+            }
+        }
+    }
+    std::vector<int> row_of(n);
+    for (int subset = (1 << n) - 1, column = n - 1; column >= 0; --column) {
+        row_of[column] = last[subset];
+        subset ^= 1 << last[subset];
+    }
+    return row_of;
+}
+
+/// J and K of one parity; K is empty for the even part of band 1.
+struct Part {
+    Block j, k;
+};
+
+struct Band {
+    Part even, odd;
+};
+
+const Band& band_blocks(int l) {
+    static std::map<int, Band> known;
+    const auto found = known.find(l);
+    if (found != known.end()) return found->second;
+    Band band;
+    for (const QuarterTurnBlock& x : exact::quarter_turn_blocks(l)) {
+        Part& part = x.columns.front() % 2 == 0 ? band.even : band.odd;
+        Block& block = x.columns.back() < 0 ? part.k : part.j;
+        block = {x, exact::factorize_orthogonal(x.matrix), best_matching(x.matrix)};
+    }
+    return known.emplace(l, std::move(band)).first->second;
+}
+
+using Values = std::vector<Value>;
+
+struct StepBuilder {
+    Graph& graph;
+    Values& x;
+    bool is_undone;
+
+    void operator()(const exact::Shear& shear) const {
+        Value& target = x[shear.target];
+        for (int j = 0; j < shear.factors.size(); ++j)
+            if (shear.factors(j) != 0)
+                target = target + (is_undone ? -shear.factors(j) : shear.factors(j)) * x[j];
+    }
+    void operator()(const exact::Reflection& reflection) const {  // its own inverse
+        const auto rank = static_cast<int>(reflection.pivots.size());
+        const auto n = static_cast<int>(x.size());
+        Values seen;
+        for (int k = 0; k < rank; ++k) {
+            std::vector<graph::Term> terms;
+            for (int i = 0; i < n; ++i) terms.push_back({reflection.forth(k, i), x[i]});
+            seen.push_back(linear_combination(graph, terms));
+        }
+        for (int i = 0; i < n; ++i)
+            for (int k = 0; k < rank; ++k) x[i] = x[i] - reflection.back(i, k) * seen[k];
+    }
+    void operator()(const exact::Product& product) const {
+        const Values before = x;
+        for (int i = 0; i < product.matrix.rows(); ++i) {
+            std::vector<graph::Term> terms;
+            for (int j = 0; j < product.matrix.cols(); ++j)
+                terms.push_back({is_undone ? product.matrix(j, i) : product.matrix(i, j), before[j]});
+            x[i] = linear_combination(graph, terms);
+        }
+    }
+};
+
+/// y = M x.
+Values apply(Graph& graph, const OrthogonalBlock& block, Values x) {
+    for (const exact::BlockStep& step : block.steps) std::visit(StepBuilder{graph, x, false}, step);
+    Values y;
+    for (int i = 0; i < block.size; ++i) y.push_back(Number(block.signs[i]) * x[block.sources[i]]);
+    return y;
+}
+
+/// x = Mᵀ y.
+Values apply_transposed(Graph& graph, const OrthogonalBlock& block, const Values& y) {
+    Values x(block.size);
+    for (int i = 0; i < block.size; ++i) x[block.sources[i]] = Number(block.signs[i]) * y[i];
+    for (auto step = block.steps.rbegin(); step != block.steps.rend(); ++step)
+        std::visit(StepBuilder{graph, x, true}, *step);
+    return x;
+}
+
+/// (c u - s v, s u + c v).
+void turn_pair(Value c, Value s, Value& u, Value& v) {
+    const Value s_v = s * v;
+    const Value turned_u = c * u - s_v;
+    const Value c_v = c * v;
+    v = s * u + c_v;
+    u = turned_u;
+}
+
+/// Builds the bands' parts on the coefficients of one kernel.
+class BandBuilder {
+  public:
+    BandBuilder(graph::Kernel& kernel, EulerScalars& scalars, int l)
+        : kernel_(kernel), graph_(kernel.graph), scalars_(scalars), l_(l), band_(band_blocks(l)) {}
+
+    void build(const BandForms& forms) {
+        const int first = l_ * l_;
+        for (int m = -l_; m <= l_; ++m) x_[m] = kernel_.input(1, first + l_ + m);
+        turn_about_z(scalars_.gamma, "g");
+        build_part(band_.even, forms.even, "e");
+        build_part(band_.odd, forms.odd, "o");
+        turn_about_z(scalars_.alpha, "a");
+        for (int m = -l_; m <= l_; ++m) kernel_.store(first + l_ + m, x_[m], l_);
+    }
+
+  private:
+    void set_scope(const char* stage) { graph_.set_scope(fmt::format("b{}_{}", l_, stage)); }
+
+    void turn_about_z(AnglePowers& angle, const char* stage) {
+        for (int m = 1; m <= l_; ++m) {
+            const Value c = angle.cosine(m), s = angle.sine(m);
+            set_scope(stage);
+            turn_pair(c, s, x_[m], x_[-m]);
+        }
+    }
+
+    Values gather(const std::vector<int>& orders) {
+        Values values;
+        for (const int m : orders) values.push_back(x_[m]);
+        return values;
+    }
+    void scatter(const std::vector<int>& orders, const Values& values) {
+        for (std::size_t i = 0; i < orders.size(); ++i) x_[orders[i]] = values[i];
+    }
+
+    void build_part(const Part& part, PartForm form, const char* stage) {
+        stage_ = stage;
+        switch (form) {
+            case PartForm::transform:
+                return transform(part);
+            case PartForm::update:
+                return update(part);
+            case PartForm::scaled:
+                return transform_scaled(part);
+            case PartForm::reflect:
+                return reflect(part);
+        }
+    }
+
+    void transform(const Part& part) {
+        set_scope(stage_);
+        Values u = apply_transposed(graph_, part.j.steps, gather(part.j.x.rows));
+        Values v = apply_transposed(graph_, part.k.steps, gather(part.k.x.rows));
+        const int skipped = part.j.size() - part.k.size();  // m = 0 has no partner
+        for (int i = 0; i < part.k.size(); ++i) {
+            const int m = part.j.x.columns[i + skipped];
+            Value& u_m = u[i + skipped];
+            if (m % 2 == 1 || scalars_.has_even_power_of_beta(m)) {
+                const Value c = scalars_.beta.cosine(m), s = scalars_.beta.sine(m);
+                set_scope(stage_);
+                turn_pair(c, s, u_m, v[i]);
+            } else {
+                // As a reflection at half the angle, which needs half as high a power: d = 2s u + 2c v.
+                const int h = m / 2;
+                const Value s2 = scalars_.beta.twice_sine(h), c2 = scalars_.beta.twice_cosine(h);
+                const Value s = scalars_.beta.sine(h), c = scalars_.beta.cosine(h);
+                set_scope(stage_);
+                const Value c2_v = c2 * v[i];
+                const Value d = s2 * u_m + c2_v;
+                u_m = u_m - s * d;
+                v[i] = c * d - v[i];
+            }
+        }
+        scatter(part.j.x.rows, apply(graph_, part.j.steps, u));
+        scatter(part.k.x.rows, apply(graph_, part.k.steps, v));
+    }
+
+    /// p stays in the z-polar basis: its component along column m of J is seen, and changed.
+    void update(const Part& part) {
+        const Values p = gather(part.j.x.rows);
+        set_scope(stage_);
+        Values q = apply_transposed(graph_, part.k.steps, gather(part.k.x.rows));
+        Values turned = p;
+        for (int k = 0; k < part.k.size(); ++k) {
+            const int column = k + 1, h = part.j.x.columns[column] / 2;
+            const Value c2 = scalars_.beta.twice_cosine(h);
+            const Value s = scalars_.beta.sine(h), c = scalars_.beta.cosine(h);
+            set_scope(stage_);
+            std::vector<graph::Term> terms;
+            for (int i = 0; i < part.j.size(); ++i) terms.push_back({2 * part.j.x.matrix(i, column), p[i]});
+            const Value twice_u = linear_combination(graph_, terms);
+            const Value c2_q = c2 * q[k];
+            const Value d = s * twice_u + c2_q;
+            const Value change = s * d;
+            for (int i = 0; i < part.j.size(); ++i)
+                turned[i] = turned[i] - part.j.x.matrix(i, column) * change;
+            q[k] = c * d - q[k];
+        }
+        scatter(part.j.x.rows, turned);
+        scatter(part.k.x.rows, apply(graph_, part.k.steps, q));
+    }
+
+    /// Xᵀ of a block with a unit entry in every row: u_j / scale_j.
+    Values seen_scaled(const Block& block, bool is_scaled) {
+        const Values x = gather(block.x.rows);
+        if (!is_scaled) return apply_transposed(graph_, block.steps, x);
+        Values u;
+        for (int j = 0; j < block.size(); ++j) {
+            std::vector<graph::Term> terms;
+            for (int i = 0; i < block.size(); ++i)
+                terms.push_back({block.x.matrix(i, j) / block.scale(j), x[i]});
+            u.push_back(linear_combination(graph_, terms));
+        }
+        return u;
+    }
+    Values shown_scaled(const Block& block, bool is_scaled, const Values& u) {
+        if (!is_scaled) return apply(graph_, block.steps, u);
+        Values x;
+        for (int i = 0; i < block.size(); ++i) {
+            std::vector<graph::Term> terms;
+            for (int j = 0; j < block.size(); ++j)
+                terms.push_back({block.x.matrix(i, j) / block.scale(j), u[j]});
+            x.push_back(linear_combination(graph_, terms));
+        }
+        return x;
+    }
+    static bool gains_by_scale(const Block& block) {
+        return block.size() * (block.size() - 1) < exact::instructions(block.steps);
+    }
+
+    void transform_scaled(const Part& part) {
+        const bool scales_j = gains_by_scale(part.j), scales_k = gains_by_scale(part.k);
+        const int skipped = part.j.size() - part.k.size();
+        set_scope(stage_);
+        Values u = seen_scaled(part.j, scales_j), v = seen_scaled(part.k, scales_k);
+        if (skipped == 1 && scales_j) u[0] = (part.j.scale(0) * part.j.scale(0)) * u[0];
+        for (int i = 0; i < part.k.size(); ++i) {
+            const int m = part.j.x.columns[i + skipped];
+            const Real a = scales_j ? part.j.scale(i + skipped) : Real(1);
+            const Real b = scales_k ? part.k.scale(i) : Real(1);
+            const Value c = scalars_.beta.cosine(m), s = scalars_.beta.sine(m);
+            graph_.set_scope(fmt::format("b{}_{}_scalar", l_, stage_));
+            const Value c_a = (a * a) * c;
+            const Value s_ab = (a * b) * s;
+            const Value c_b = (b * b) * c;
+            set_scope(stage_);
+            Value& u_m = u[i + skipped];
+            const Value s_v = s_ab * v[i];
+            const Value turned_u = c_a * u_m - s_v;
+            const Value c_v = c_b * v[i];
+            v[i] = s_ab * u_m + c_v;
+            u_m = turned_u;
+        }
+        scatter(part.j.x.rows, shown_scaled(part.j, scales_j, u));
+        scatter(part.k.x.rows, shown_scaled(part.k, scales_k, v));
+    }
+
+    /// A plane rotation is a reflection after a change of sign; the signs of all K columns are those of its
+    /// rows. So the part is p̃ - sum_h ω_h (ω_h·p̃), ω_h = √2 (X_im sin(hβ); -X_i,-m cos(hβ)), m = 2h, p̃ = (p,
+    /// -q).
+    void reflect(const Part& part) {
+        const Real root_2 = sqrt(Real(2));
+        std::vector<int> orders = part.j.x.rows;
+        orders.insert(orders.end(), part.k.x.rows.begin(), part.k.x.rows.end());
+        Values p = gather(orders);
+        for (int i = part.j.size(); i < static_cast<int>(p.size()); ++i) p[i] = -p[i];
+        Values turned = p;
+        for (int k = 0; k < part.k.size(); ++k) {
+            const int column = k + 1, h = part.j.x.columns[column] / 2;
+            const Value c = scalars_.beta.cosine(h), s = scalars_.beta.sine(h);
+            graph_.set_scope(fmt::format("b{}_{}_scalar", l_, stage_));
+            Values omega;
+            for (int i = 0; i < part.j.size(); ++i)
+                omega.push_back((root_2 * part.j.x.matrix(i, column)) * s);
+            for (int i = 0; i < part.k.size(); ++i) omega.push_back((-root_2 * part.k.x.matrix(i, k)) * c);
+            set_scope(stage_);
+            Value along{&graph_, graph_.constant(0)};
+            for (std::size_t i = 0; i < p.size(); ++i) along = along + omega[i] * p[i];
+            for (std::size_t i = 0; i < p.size(); ++i) turned[i] = turned[i] - omega[i] * along;
+        }
+        scatter(orders, turned);
+    }
+
+    graph::Kernel& kernel_;
+    Graph& graph_;
+    EulerScalars& scalars_;
+    int l_;
+    const Band& band_;
+    const char* stage_ = "";
+    std::map<int, Value> x_;  ///< the band's coefficients by order m
+};
+
+}  // namespace
+
+EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order) {
+    graph::Graph& graph = kernel.graph;
+    graph.set_scope("euler");
+    const auto named = [&](Value value, const char* name) {
+        graph.set_name(value.id, name);
+        return value;
+    };
+    // (cos α, sin α) = (R02, R12) normalised. (0, 0) gives (1, 0); the sum cannot cancel, and its square is
+    // no denormal.
+    const Value x = named(rows[0][2] + copysign(Number("1e-18"), rows[0][2]), "x");
+    const Value y = rows[1][2];
+    const Value x_x = x * x;
+    const Value squared_sin_b = y * y + x_x;
+    const Value sin_b = named(sqrt(squared_sin_b), "b_s1");
+    // Two divisions, not products with one inverse: its rounding would be an error of the norm, which grows
+    // in the powers.
+    const Value cos_a = named(x / sin_b, "a_c1");
+    const Value sin_a = named(y / sin_b, "a_s1");
+    // Rz(-α) R = Ry(β) Rz(γ), whose middle row is (sin γ, cos γ, 0).
+    const Value s0 = sin_a * rows[0][0];
+    Value sin_g = cos_a * rows[1][0] - s0;
+    const Value s1 = sin_a * rows[0][1];
+    Value cos_g = cos_a * rows[1][1] - s1;
+    // An error of the norm would grow in the powers: one Newton step, by the defect 1 - c² - s², which is
+    // rounded at its own size and not at that of 1.
+    const Value one{&graph, graph.constant(1)};
+    const Value one_c = one - cos_g * cos_g;
+    const Value defect = one_c - sin_g * sin_g;
+    const Value half_defect = Number(0.5) * defect;
+    sin_g = named(half_defect * sin_g + sin_g, "g_s1");
+    cos_g = named(half_defect * cos_g + cos_g, "g_c1");
+    const PowerChain chain = order <= 6 ? PowerChain::recurrence : PowerChain::product;
+    EulerScalars scalars{order, AnglePowers(kernel, "a", cos_a, sin_a, chain, false),
+                         AnglePowers(kernel, "b", rows[2][2], sin_b, chain, true),
+                         AnglePowers(kernel, "g", cos_g, sin_g, chain, false)};
+    scalars.beta.set_squared_sine(squared_sin_b);
+    return scalars;
+}
+
+std::vector<BandForms> band_forms(int) {
+    std::vector<BandForms> all;
+    for (const PartForm even : {PartForm::transform, PartForm::update, PartForm::reflect, PartForm::scaled})
+        for (const PartForm odd : {PartForm::transform, PartForm::scaled}) all.push_back({even, odd});
+    return all;
+}
+
+void build_zxzxz_band(graph::Kernel& kernel, EulerScalars& scalars, int l, const BandForms& forms) {
+    BandBuilder(kernel, scalars, l).build(forms);
+}
+
+}  // namespace zonal::kernels
