@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "checks.hpp"
@@ -33,7 +32,6 @@ namespace zonal {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kMaxLength = kMaxOrder * kMaxOrder;
 
 enum class Axes {
     kOurs,
@@ -46,22 +44,36 @@ struct Definition {
     std::string_view name;
     Axes axes = Axes::kOurs;
     bool multiplies_rows = false;
-    bool is_scaled_within_bands = false;
+    bool is_scaled_within_bands = false;  ///< then max_order is at most kMaxScaledOrder
     int min_order = 1;
     int max_order = kMaxOrder;
 };
 
+constexpr int kMaxScaledOrder = 4;
+
 constexpr auto kDefinitions = std::to_array<Definition>({
-    {Convention::kGaussianSplatting, "3dgs", Axes::kHalfTurnAboutZ},
-    {Convention::kGaussianSplatting, "khr_gaussian_splatting", Axes::kHalfTurnAboutZ},
-    {Convention::kDirectX, "directx", Axes::kHalfTurnAboutZ, true},
-    {Convention::kGoogle, "google", Axes::kHalfTurnAboutZ},
-    {Convention::kAmbixSn3d, "ambix_sn3d"},
-    {Convention::kAmbixN3d, "ambix_n3d"},
-    {Convention::kFuMa, "fuma", Axes::kOurs, false, true, 1, 4},
-    {Convention::kUnityL2, "unity_l2", Axes::kOurs, false, true, 3, 3},
-    {Convention::kThreeJs, "threejs", Axes::kOurs, false, false, 3, 3},
-    {Convention::kE3nn, "e3nn", Axes::kYPolar},
+    {.convention = Convention::kGaussianSplatting, .name = "3dgs", .axes = Axes::kHalfTurnAboutZ},
+    {.convention = Convention::kGaussianSplatting,
+     .name = "khr_gaussian_splatting",
+     .axes = Axes::kHalfTurnAboutZ},
+    {.convention = Convention::kDirectX,
+     .name = "directx",
+     .axes = Axes::kHalfTurnAboutZ,
+     .multiplies_rows = true},
+    {.convention = Convention::kGoogle, .name = "google", .axes = Axes::kHalfTurnAboutZ},
+    {.convention = Convention::kAmbixSn3d, .name = "ambix_sn3d"},
+    {.convention = Convention::kAmbixN3d, .name = "ambix_n3d"},
+    {.convention = Convention::kFuMa,
+     .name = "fuma",
+     .is_scaled_within_bands = true,
+     .max_order = kMaxScaledOrder},
+    {.convention = Convention::kUnityL2,
+     .name = "unity_l2",
+     .is_scaled_within_bands = true,
+     .min_order = 3,
+     .max_order = 3},
+    {.convention = Convention::kThreeJs, .name = "threejs", .min_order = 3, .max_order = 3},
+    {.convention = Convention::kE3nn, .name = "e3nn", .axes = Axes::kYPolar},
 });
 
 const Definition& definition_of(Convention convention) {
@@ -73,7 +85,8 @@ const Definition& definition_of(Convention convention) {
                  .next_step = "use convention_from_name to read a convention"});
 }
 
-void check_call(const Definition& definition, int order, std::size_t in, std::size_t out) {
+template <class V>
+void check_call(const Definition& definition, int order, std::span<const V> in, std::span<V> out) {
     if (order < definition.min_order || order > definition.max_order) {
         const bool is_single = definition.min_order == definition.max_order;
         throw Error({.field = fmt::format("order of a signal in the convention {}", definition.name),
@@ -83,37 +96,43 @@ void check_call(const Definition& definition, int order, std::size_t in, std::si
                                    : fmt::format("{} to {}", definition.min_order, definition.max_order),
                      .next_step = "choose an order (number of bands) that the convention has"});
     }
-    check_length("in", order, in);
-    check_length("out", order, out);
+    check_length("in", order, in.size());
+    check_length("out", order, out.size());
+    check_no_partial_overlap(in, out);
 }
 
-/// theirs[j] = scale * ours[index], in the convention's axes.
+/// theirs[j] = scale * ours[index], up to the polar axis: a half turn about z is in the scale, as (-1)^m.
 struct Place {
     int index = 0;
     double scale = 1;
+    double inverse = 1;
+};
+
+struct FuMaChannel {
+    int index;
+    double over_sn3d;
 };
 
 /// W X Y Z, R S T U V, K L M N O P Q in our index, and FuMa over SN3D: maxN's weights, for W 1 / sqrt(2).
-const std::array<Place, 16>& fuma_over_sn3d() {
-    static const double first = 2 / std::sqrt(3.0), second = std::sqrt(45.0 / 32);
-    static const double third = 3 / std::sqrt(5.0), fourth = std::sqrt(8.0 / 5);
-    static const std::array<Place, 16> places = {{{0, std::sqrt(0.5)},
-                                                  {3, 1},
-                                                  {1, 1},
-                                                  {2, 1},
-                                                  {6, 1},
-                                                  {7, first},
-                                                  {5, first},
-                                                  {8, first},
-                                                  {4, first},
-                                                  {12, 1},
-                                                  {13, second},
-                                                  {11, second},
-                                                  {14, third},
-                                                  {10, third},
-                                                  {15, fourth},
-                                                  {9, fourth}}};
-    return places;
+std::array<FuMaChannel, kMaxScaledOrder * kMaxScaledOrder> fuma_channels() {
+    const double stuv = 2 / std::sqrt(3.0), lm = std::sqrt(45.0 / 32), no = 3 / std::sqrt(5.0);
+    const double pq = std::sqrt(8.0 / 5);
+    return {{{0, std::sqrt(0.5)},
+             {3, 1},
+             {1, 1},
+             {2, 1},
+             {6, 1},
+             {7, stuv},
+             {5, stuv},
+             {8, stuv},
+             {4, stuv},
+             {12, 1},
+             {13, lm},
+             {11, lm},
+             {14, no},
+             {10, no},
+             {15, pq},
+             {9, pq}}};
 }
 
 /// A unit source is y_l^m(d) in our basis and, in SN3D, has W = 1: SN3D over ours.
@@ -130,28 +149,38 @@ double unity_scale(int l, int m) {
 Place place_of(Convention convention, int l, int m) {
     const int index = l * (l + 1) + m;
     switch (convention) {
+        case Convention::kGaussianSplatting:
+        case Convention::kDirectX:
+        case Convention::kGoogle:
+            return {index, m % 2 == 0 ? 1.0 : -1.0};
         case Convention::kAmbixSn3d:
             return {index, sn3d_scale(l)};
         case Convention::kAmbixN3d:
             return {index, std::sqrt(4 * kPi)};
         case Convention::kFuMa: {
-            if (l > 3) return {};
-            const Place& place = fuma_over_sn3d()[index];
-            return {place.index, sn3d_scale(l) * place.scale};
+            if (l >= kMaxScaledOrder) return {};
+            const FuMaChannel channel = fuma_channels()[index];
+            return {channel.index, sn3d_scale(l) * channel.over_sn3d};
         }
         case Convention::kUnityL2:
             return {index, l > 2 ? 1 : unity_scale(l, m)};
-        default:
-            return {index, 1};
+        case Convention::kThreeJs:
+        case Convention::kE3nn:
+            break;
     }
+    return {index};
 }
 
-using Layout = std::array<Place, kMaxLength>;
+using Layout = std::array<Place, kMaxOrder * kMaxOrder>;
 
 Layout make_layout(Convention convention) {
     Layout layout;
     for (int l = 0; l < kMaxOrder; ++l) {
-        for (int m = -l; m <= l; ++m) layout[l * (l + 1) + m] = place_of(convention, l, m);
+        for (int m = -l; m <= l; ++m) {
+            Place& place = layout[l * (l + 1) + m];
+            place = place_of(convention, l, m);
+            place.inverse = 1 / place.scale;
+        }
     }
     return layout;
 }
@@ -176,22 +205,21 @@ struct ScalarOf<Rgb<T>> {
 template <class V>
 using Scalar = typename ScalarOf<V>::type;
 
-/// Room for one signal of any order, so that no call allocates.
+/// Room for one signal of a convention that is scaled within bands; only these permute.
 template <class V>
-class Signal {
-  public:
-    explicit Signal(int order) : length_(static_cast<std::size_t>(order) * order) {}
-    std::span<V> values() { return std::span(storage_).first(length_); }
+using Room = std::array<V, kMaxScaledOrder * kMaxScaledOrder>;
 
-  private:
-    std::size_t length_;
-    std::array<V, kMaxLength> storage_{};
-};
+template <class V>
+std::span<const V> copied(const Definition& definition, std::span<const V> in, Room<V>& room) {
+    if (!definition.is_scaled_within_bands) return in;
+    std::ranges::copy(in, room.begin());
+    return std::span(room).first(in.size());
+}
 
 template <class V>
 void to_our_places(const Layout& layout, std::span<const V> theirs, std::span<V> ours) {
     for (std::size_t j = 0; j < theirs.size(); ++j)
-        ours[layout[j].index] = static_cast<Scalar<V>>(1 / layout[j].scale) * theirs[j];
+        ours[layout[j].index] = static_cast<Scalar<V>>(layout[j].inverse) * theirs[j];
 }
 
 template <class V>
@@ -216,59 +244,37 @@ Eigen::Matrix3d axes_matrix(Axes axes) {
 }
 
 template <class V>
-void negate_odd_m(std::span<V> signal) {
-    for (int l = 1; l * l < static_cast<int>(signal.size()); ++l) {
-        for (int m = -l; m <= l; ++m) {
-            V& value = signal[l * (l + 1) + m];
-            if (m % 2 != 0) value = -value;
-        }
-    }
-}
-
-enum class Direction { kToOurs, kToTheirs };
-
-/// From g to f(w) = g(P w) or back: a rotation of g by P^T, or of f by P.
-template <class V>
-void turn_axes(Axes axes, Direction direction, int order, std::span<V> signal) {
-    if (axes == Axes::kHalfTurnAboutZ) negate_odd_m(signal);
-    if (axes != Axes::kYPolar) return;
-    const Eigen::Matrix3d p = axes_matrix(axes);
-    const RotationMatrix<Scalar<V>> turn(direction == Direction::kToOurs ? Eigen::Matrix3d(p.transpose())
-                                                                         : p);
-    rotate(order, turn, std::span<const V>(signal), signal);
-}
-
-template <class V>
 void convert_to_zonal(Convention convention, int order, std::span<const V> in, std::span<V> out) {
     const Definition& definition = definition_of(convention);
-    check_call(definition, order, in.size(), out.size());
-    Signal<V> ours(order);
-    to_our_places(layout_of(convention), in, ours.values());
-    turn_axes(definition.axes, Direction::kToOurs, order, ours.values());
-    std::ranges::copy(ours.values(), out.begin());
+    check_call(definition, order, in, out);
+    if (definition.axes == Axes::kYPolar)  // f(w) = g(P w): g turned by P^T
+        return rotate(order, RotationMatrix<Scalar<V>>(axes_matrix(definition.axes).transpose()), in, out);
+    Room<V> room;
+    to_our_places(layout_of(convention), copied(definition, in, room), out);
 }
 
 template <class V>
 void convert_from_zonal(Convention convention, int order, std::span<const V> in, std::span<V> out) {
     const Definition& definition = definition_of(convention);
-    check_call(definition, order, in.size(), out.size());
-    Signal<V> ours(order);
-    std::ranges::copy(in, ours.values().begin());
-    turn_axes(definition.axes, Direction::kToTheirs, order, ours.values());
-    to_their_places(layout_of(convention), std::span<const V>(ours.values()), out);
+    check_call(definition, order, in, out);
+    if (definition.axes == Axes::kYPolar)
+        return rotate(order, RotationMatrix<Scalar<V>>(axes_matrix(definition.axes)), in, out);
+    Room<V> room;
+    to_their_places(layout_of(convention), copied(definition, in, room), out);
 }
 
 template <class T, class V>
 void rotate_within(Convention convention, int order, const RotationMatrix<T>& rotation, std::span<const V> in,
                    std::span<V> out) {
     const Definition& definition = definition_of(convention);
-    check_call(definition, order, in.size(), out.size());
+    check_call(definition, order, in, out);
     const RotationMatrix<T> turn = kernel_rotation(convention, rotation);
     if (!definition.is_scaled_within_bands) return rotate(order, turn, in, out);
-    Signal<V> ours(order);
-    to_our_places(layout_of(convention), in, ours.values());
-    rotate(order, turn, std::span<const V>(ours.values()), ours.values());
-    to_their_places(layout_of(convention), std::span<const V>(ours.values()), out);
+    Room<V> room;
+    const std::span<V> ours = std::span(room).first(in.size());
+    to_our_places(layout_of(convention), in, ours);
+    rotate(order, turn, std::span<const V>(ours), ours);
+    to_their_places(layout_of(convention), std::span<const V>(ours), out);
 }
 
 }  // namespace

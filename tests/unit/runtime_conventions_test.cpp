@@ -474,6 +474,25 @@ TEST(runtime_conventions_door, span_of_wrong_length_is_named) {
               std::string::npos);
 }
 
+TEST(runtime_conventions_door, partial_overlap_is_refused_and_leaves_the_values) {
+    Values storage(10, 7.0);
+    const std::span<double> all(storage);
+    const auto head = all.first(9), tail = all.last(9);
+    for (const char* name : {"unity_l2", "threejs", "fuma"}) {
+        const Convention convention = zonal::convention_from_name(name);
+        const std::string wanted = "in and out: found spans that overlap in part";
+        EXPECT_NE(message_of([&] { zonal::to_zonal(convention, 3, head, tail); }).find(wanted),
+                  std::string::npos);
+        EXPECT_NE(message_of([&] { zonal::from_zonal(convention, 3, tail, head); }).find(wanted),
+                  std::string::npos);
+        EXPECT_NE(message_of([&] {
+                      zonal::rotate(convention, 3, RotationMatrix<double>(), head, tail);
+                  }).find(wanted),
+                  std::string::npos);
+    }
+    EXPECT_EQ(storage, Values(10, 7.0));
+}
+
 TEST(runtime_conventions_door, number_that_is_no_convention_is_refused) {
     Values nine(9);
     EXPECT_NE(message_of([&] {

@@ -42,13 +42,16 @@ template <class T>
 RotationMatrix<T> kernel_rotation(Convention convention, const RotationMatrix<T>& rotation);
 
 /// Converts one signal into our basis: the same function of the same (x, y, z), so that `evaluate` applies.
-/// in, out  : order^2 values each; they may be the same span or overlap.
-/// Errors   : zonal::Error when the convention does not have the order, a span has the wrong length, or, for
-///            e3nn, the order is not among compiled_orders(); `out` is then untouched.
-/// Accuracy : one rounding of a constant and one of a product a value; exact where the scale is 1; e3nn: that
-///            of zonal::rotate, which turns the polar axis. Cost: one multiplication a value; e3nn: a
-///            rotation.
-/// A NaN or infinity stays in its coefficient (e3nn: in its band).
+/// in, out  : order^2 values each; the same span, or separate ones.
+/// Errors   : zonal::Error when the convention does not have the order, a span has the wrong length, the
+/// spans
+///            overlap in part, or, for e3nn, the order is not among compiled_orders(); `out` is then
+///            untouched.
+/// Accuracy : a rounded factor and a rounded product a value, 3/2 epsilons; exact where the factor is 1 or
+/// -1;
+///            e3nn: that of zonal::rotate, which turns the polar axis.
+/// Cost     : one multiplication a value; e3nn: one rotation. A NaN or infinity stays in its coefficient
+///            (e3nn: in its band).
 void to_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);
 void to_zonal(Convention convention, int order, std::span<const double> in, std::span<double> out);
 void to_zonal(Convention convention, int order, std::span<const Rgb<float>> in, std::span<Rgb<float>> out);
@@ -63,12 +66,12 @@ void from_zonal(Convention convention, int order, std::span<const Rgb<double>> i
 
 /// Rotates one signal given in a convention by a matrix given in that convention; the result is in it too.
 /// The function turns: f'(w) = f(R^T w), where R acts on columns (directx: R = M^T); mirrors are allowed.
-/// in, out  : order^2 values each; the same span, or separate ones (fuma and unity_l2 bear any overlap).
+/// in, out  : order^2 values each; the same span, or separate ones.
 /// Errors   : zonal::Error when the convention does not have the order, the order is not among
 ///            compiled_orders(), a span has the wrong length, or the spans overlap in part; `out` is then
 ///            untouched.
 /// Accuracy and cost: those of zonal::rotate, for the change of R is exact. fuma and unity_l2 add two
-///            multiplications a value, each with two roundings (constant and product).
+///            multiplications a value, of 3/2 epsilons each.
 void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,
             std::span<const float> in, std::span<float> out);
 void rotate(Convention convention, int order, const RotationMatrix<double>& rotation,

@@ -5,7 +5,7 @@
 // [sine] modulo 2. So a row m meets only the columns of one half (cosines when l + m is even), and of those
 // every other one (even l + n when m >= 0).
 //
-// Source: Kautz, Sloan, Snyder 2002, Fast, Arbitrary BRDF Shading, appendix. Limit: determinant +1.
+// Source: Kautz, Sloan, Snyder 2002. Limit: determinant +1.
 
 #include "bench/baselines/zxzxz.hpp"
 
