@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exact/factorization.hpp"
+#include "tables_folder.hpp"
 
 namespace zonal {
 

@@ -23,4 +23,11 @@ void check_length(const char* field, int order, std::size_t length) {
                  .next_step = "pass one value per coefficient, or the order that belongs to the data"});
 }
 
+void throw_partial_overlap() {
+    throw Error({.field = "in and out",
+                 .found = "spans that overlap in part",
+                 .wanted = "the same span, or separate ones",
+                 .next_step = "write into a separate array"});
+}
+
 }  // namespace zonal

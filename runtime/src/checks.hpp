@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <span>
 
 namespace zonal {
 
@@ -12,5 +14,16 @@ void check_order(int order);
 
 /// Throws zonal::Error unless `length` = order^2; `field` names the span in the message.
 void check_length(const char* field, int order, std::size_t length);
+
+[[noreturn]] void throw_partial_overlap();
+
+/// Throws zonal::Error unless the spans are the same or apart.
+template <class V>
+void check_no_partial_overlap(std::span<const V> in, std::span<V> out) {
+    const std::less<const V*> before;
+    const bool overlaps =
+        before(in.data(), out.data() + out.size()) && before(out.data(), in.data() + in.size());
+    if (overlaps && in.data() != out.data()) throw_partial_overlap();
+}
 
 }  // namespace zonal

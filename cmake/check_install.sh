@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Installs a finished build into a prefix under build/, then builds, runs and tests tests/consumer against it.
+#   bash cmake/check_install.sh [BUILD_FOLDER, default build/release]
+# With zonal-gen in the build, it also has the installed program write kernels, and checks what it says of
+# mistakes. Exit status not zero and the output of the step that failed, when one fails.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$(realpath "${1:-$root/build/release}")
+work=$root/build/check_install
+rm -rf "$work"
+mkdir -p "$work"
+
+quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
+fails_with() { # MESSAGE COMMAND...: the command must fail and say so
+  local message=$1
+  shift
+  if "$@" >"$work/log" 2>&1; then echo "succeeded, but had to fail: $*" >&2; exit 1; fi
+  tr -s '\n ' ' ' <"$work/log" | grep -qF -- "$message" || { cat "$work/log" >&2; echo "wanted: $message" >&2; exit 1; }
+}
+
+# The package has to work from wherever it is moved to.
+quietly cmake --install "$build" --prefix "$work/installed"
+mv "$work/installed" "$work/prefix"
+prefix=$work/prefix
+test -s "$prefix/share/doc/zonal/LICENSE"
+
+has_generator=OFF
+if [ -x "$prefix/bin/zonal-gen" ]; then has_generator=ON; fi
+consumer() { # FOLDER [options]
+  cmake -S "$root/tests/consumer" -B "$work/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCONSUMER_HAS_GENERATOR=$has_generator "${@:2}"
+}
+quietly consumer consumer
+quietly cmake --build "$work/consumer"
+quietly ctest --test-dir "$work/consumer" --output-on-failure --no-tests=error
+
+if [ $has_generator = ON ]; then
+  for order in 0 21 four; do
+    fails_with "zonal_add_kernels(kernels_at_build): ORDERS: found '$order', wanted whole numbers from 1 to 20" \
+      consumer bad_order "-DCONSUMER_ORDERS=3;$order"
+  done
+  # The program must read the tables that came with it, and those it is told to.
+  mkdir "$work/truncated"
+  head -c 100 "$prefix/share/zonal/tables/order04.json" >"$work/truncated/order04.json"
+  emit=("$prefix/bin/zonal-gen" emit --order 4 --language cpp --out "$work/emitted")
+  fails_with "$work/truncated/order04.json: JSON text" env ZONAL_TABLES_DIR="$work/truncated" "${emit[@]}"
+  quietly "${emit[@]}"
+  cp "$work/truncated/order04.json" "$prefix/share/zonal/tables/"
+  fails_with "$prefix/share/zonal/tables/order04.json: JSON text" "${emit[@]}"
+fi
+echo "the installed package works (zonal-gen: $has_generator)"
