@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
 
-#include "apps/order_kernels.hpp"
+#include "order_kernels.hpp"
 #include "emit/cpp.hpp"
 #include "output_file.hpp"
 #include "user_error.hpp"
@@ -46,17 +47,23 @@ const Language& find_language(const std::string& name) {
 emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", options.order);
-    unit.command = fmt::format("zonal-gen emit --order {} --language {}{} --out generated/{}", options.order,
-                               options.language, options.table.empty() ? "" : " --table " + order.table_name,
-                               options.language);
-    unit.table = fmt::format("{}  sha256:{}", order.table_name, order.table.sha256.substr(0, kHashDigits));
+    unit.command = fmt::format(
+        "zonal-gen emit --order {} --language {}{} --out generated/{}", options.order, options.language,
+        options.table.empty() ? "" : " --table " + order.lobes->table_name, options.language);
+    unit.table = order.lobes ? fmt::format("{}  sha256:{}", order.lobes->table_name,
+                                           order.lobes->table.sha256.substr(0, kHashDigits))
+                             : "none for this order, so no lobe kernels: zonal-gen search";
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
-    unit.domain = "for det R = +1 or -1";
-    unit.sources = {"Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11"};
     unit.kernels = order.kernels;
+    for (const graph::Kernel& kernel : unit.kernels)
+        for (const std::string& source : kernel.sources)
+            if (std::find(unit.sources.begin(), unit.sources.end(), source) == unit.sources.end())
+                unit.sources.push_back(source);
     unit.bounds = order.bounds;
-    unit.forwards = {{"rotate", "rotate_zhf",
-                      "The cheapest exact rotation of one vector that this order has: rotate_zhf."}};
+    unit.constants = {{"kHasLobes", order.lobes ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
+    for (const graph::Kernel& kernel : order.kernels)
+        if (kernel.name == "prepare")
+            unit.constants.push_back({"kScalars", kernel.output.size, "Values that `prepare` makes"});
     return unit;
 }
 

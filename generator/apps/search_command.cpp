@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/order_kernels.hpp"
+#include "order_kernels.hpp"
 #include "exact/angles.hpp"
 #include "lobe_table.hpp"
 #include "output_file.hpp"
@@ -147,7 +147,7 @@ void check_is_writable(const std::filesystem::path& path) {
 }
 
 void run(const Options& options) {
-    check_order(options.order);
+    check_order(options.order, kSmallestSearchedOrder);
     check_is_writable(options.out);
     const search::Problem problem = search::Problem::shared(options.order);
     const search::SearchSettings settings = settings_of(options, problem);

@@ -5,10 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/order_kernels.hpp"
+#include "order_kernels.hpp"
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
 #include "kernels/lobes.hpp"
+#include "kernels/planner.hpp"
+#include "kernels/rotations.hpp"
 
 namespace zonal {
 
@@ -26,44 +28,81 @@ Json to_json(const graph::Counts& counts) {
     return {{"mul", counts.mul}, {"add", counts.add}, {"fma", counts.fma}, {"other", counts.other}};
 }
 
+Json to_json(const graph::Spills& spills) { return {{"stores", spills.stores}, {"reloads", spills.reloads}}; }
+
 Json to_json(const graph::Kernel& kernel) {
     const graph::Cost cost = graph::count_operations(kernel);
+    const std::vector<graph::Statement> statements = graph::schedule(kernel);
     Json json = to_json(cost.total());
     json["multiplications"] = cost.total().multiplications();
     json["instructions"] = cost.total().instructions();
     json["per_rotation"] = to_json(cost.per_rotation);
     json["per_vector"] = to_json(cost.per_vector);
-    json["peak_live_values"] = graph::peak_live_values(kernel, graph::schedule(kernel));
+    json["peak_live_values"] = graph::peak_live_values(kernel, statements);
+    json["spills"] = {{"16", to_json(graph::simulate_spills(kernel, statements, 16))},
+                      {"32", to_json(graph::simulate_spills(kernel, statements, 32))}};
     return json;
 }
 
-Json to_json(const OrderKernels& order) {
+/// The method each kernel has for every band, and what the others would cost.
+Json methods_to_json(int order) {
     Json bands = Json::array();
-    for (int l = 0; l < order.table.order; ++l)
+    const kernels::OrderPlans plans = kernels::plan_order(order);
+    for (int l = 1; l < order; ++l) {
+        Json others = Json::array();
+        for (const kernels::Alternative& way : kernels::alternatives(order, l))
+            others.push_back({{"method", kernels::name_of(way.plan)},
+                              {"per_rotation", to_json(way.cost.per_rotation)},
+                              {"per_vector", to_json(way.cost.per_vector)}});
         bands.push_back({{"band", l},
-                         {"entries", (2 * l + 1) * (2 * l + 1)},
-                         {"zeros", order.table.zeros[l]},
-                         {"multiplications", kernels::factorization_multiplications(order.lobes.bands[l])},
-                         {"cond", order.table.condition[l]}});
+                         {"rotate", kernels::name_of(plans.one[l - 1])},
+                         {"rotate_channels", kernels::name_of(plans.channels[l - 1])},
+                         {"apply", kernels::name_of(plans.many[l - 1])},
+                         {"alternatives", others}});
+    }
+    return bands;
+}
+
+Json to_json(const OrderKernels& order) {
+    Json json{{"order", order.order}};
+    if (order.lobes) {
+        const LobeTable& table = order.lobes->table;
+        Json bands = Json::array();
+        for (int l = 0; l < order.order; ++l)
+            bands.push_back(
+                {{"band", l},
+                 {"entries", (2 * l + 1) * (2 * l + 1)},
+                 {"zeros", table.zeros[l]},
+                 {"multiplications", kernels::factorization_multiplications(order.lobes->set.bands[l])},
+                 {"cond", table.condition[l]}});
+        json["table"] = order.lobes->table_name;
+        json["nonzeros"] = table.nonzeros;
+        json["bands"] = bands;
+    }
+    json["methods"] = methods_to_json(order.order);
     Json kernels;
     for (const graph::Kernel& kernel : order.kernels) kernels[kernel.name] = to_json(kernel);
-    return {{"order", order.table.order},
-            {"table", order.table_name},
-            {"nonzeros", order.table.nonzeros},
-            {"bands", bands},
-            {"kernels", kernels}};
+    json["kernels"] = kernels;
+    return json;
 }
 
 void print_table(const Json& stats) {
-    fmt::print("{:<6}{:>9}{:>8}{:>17}{:>12}\n", "band", "entries", "zeros", "multiplications", "cond");
-    for (const Json& band : stats["bands"])
-        fmt::print("{:<6}{:>9}{:>8}{:>17}{:>12.4g}\n", band["band"].get<int>(), band["entries"].get<int>(),
-                   band["zeros"].get<int>(), band["multiplications"].get<int>(), band["cond"].get<double>());
-    fmt::print("\n{:<12}{:>6}{:>6}{:>6}{:>7}   {}\n", "kernel", "mul", "add", "fma", "other",
+    if (stats.contains("bands")) {
+        fmt::print("{:<6}{:>9}{:>8}{:>17}{:>12}\n", "band", "entries", "zeros", "multiplications", "cond");
+        for (const Json& band : stats["bands"])
+            fmt::print("{:<6}{:>9}{:>8}{:>17}{:>12.4g}\n", band["band"].get<int>(),
+                       band["entries"].get<int>(), band["zeros"].get<int>(),
+                       band["multiplications"].get<int>(), band["cond"].get<double>());
+        fmt::print("\n");
+    }
+    fmt::print("{:<6}{}\n", "band", "method of rotate");
+    for (const Json& band : stats["methods"])
+        fmt::print("{:<6}{}\n", band["band"].get<int>(), band["rotate"].get<std::string>());
+    fmt::print("\n{:<16}{:>6}{:>6}{:>6}{:>7}   {}\n", "kernel", "mul", "add", "fma", "other",
                "of these once per rotation (mul add fma other)");
     for (const auto& [name, kernel] : stats["kernels"].items()) {
         const Json& once = kernel["per_rotation"];
-        fmt::print("{:<12}{:>6}{:>6}{:>6}{:>7}   {} {} {} {}\n", name, kernel["mul"].get<int>(),
+        fmt::print("{:<16}{:>6}{:>6}{:>6}{:>7}   {} {} {} {}\n", name, kernel["mul"].get<int>(),
                    kernel["add"].get<int>(), kernel["fma"].get<int>(), kernel["other"].get<int>(),
                    once["mul"].get<int>(), once["add"].get<int>(), once["fma"].get<int>(),
                    once["other"].get<int>());

@@ -23,13 +23,26 @@ using graph::Op;
 const char* const kPrelude = R"(
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
+// Always inlined: files compiled for different targets must not share a copy.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+[[gnu::always_inline]] inline float fma(float a, float b, float c) {
+    return __builtin_fmaf(a, b, c);
+}
+[[gnu::always_inline]] inline double fma(double a, double b, double c) {
+    return __builtin_fma(a, b, c);
+}
 #else
-inline float fma(float a, float b, float c) { return a * b + c; }
-inline double fma(double a, double b, double c) { return a * b + c; }
+[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
+[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
 #endif
+[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
+[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
+[[gnu::always_inline]] inline float copysign(float size, float sign) {
+    return __builtin_copysignf(size, sign);
+}
+[[gnu::always_inline]] inline double copysign(double size, double sign) {
+    return __builtin_copysign(size, sign);
+}
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -57,10 +70,20 @@ std::string template_line(const Kernel& kernel) {
     return "template <class T, class V = T>\n";
 }
 
+bool reads(const Kernel& kernel, int input) {
+    for (Id id = 0; id < kernel.graph.size(); ++id)
+        if (kernel.graph[id].op == Op::input && kernel.graph[id].array == input) return true;
+    return false;
+}
+
 std::string parameters(const Kernel& kernel) {
     std::string text;
-    for (const graph::Array& array : kernel.inputs)
-        text += fmt::format("const {}* {}, ", type_of(array.kind), array.name);
+    for (int k = 0; k < static_cast<int>(kernel.inputs.size()); ++k) {
+        const graph::Array& array = kernel.inputs[k];
+        const bool is_read = reads(kernel, k) || !kernel.for_channels.empty();
+        text += fmt::format("const {}* {}, ", type_of(array.kind),
+                            is_read ? array.name : fmt::format("/*{}*/", array.name));
+    }
     return text + fmt::format("{}* {}", type_of(kernel.output.kind), kernel.output.name);
 }
 
@@ -91,20 +114,29 @@ std::string kernel_comment(const Kernel& kernel) {
     describe(kernel.output);
     const graph::Array& last = kernel.inputs.back();
     text +=
-        last.kind == kernel.output.kind
+        last.kind == Kind::signal
             ? fmt::format("/// {} may be {}; they must not overlap in part.\n", kernel.output.name, last.name)
             : fmt::format("/// {} must not overlap {}.\n", kernel.output.name, last.name);
-    if (!kernel.bound_excess.empty())
-        text += fmt::format("/// Error: at most the banner's bound and {}, times |{}|.\n",
-                            kernel.bound_excess, last.name);
+    if (kernel.needs_proper_rotation && kernel.inputs[0].name == "R")
+        text +=
+            "/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the\n"
+            "/// odd bands.\n";
+    if (!kernel.for_channels.empty())
+        text += fmt::format("/// Where V is not T, a value of several channels, this is {}.\n",
+                            kernel.for_channels);
+    if (kernel.has_bound)
+        text += fmt::format("/// Error: at most (k{0}Bound... + k{0}Excess |R R^T - I|_F) |{1}|.\n",
+                            pascal_case(kernel.name), last.kind == Kind::signal ? last.name : "signal");
     text += "/// Cost: see the banner.\n";
-    return text + fmt::format("/// Source: {}.\n", kernel.source);
+    for (const std::string& source : kernel.sources) text += fmt::format("/// Source: {}.\n", source);
+    return text;
 }
 
 /// The body of one kernel.
 class BodyPrinter {
   public:
-    explicit BodyPrinter(const Kernel& kernel) : kernel_(kernel), names_(node_names(kernel)) {}
+    BodyPrinter(const Kernel& kernel, int indentation)
+        : kernel_(kernel), names_(node_names(kernel)), indentation_(indentation, ' ') {}
 
     std::string print() {
         const std::vector<graph::Statement> statements = graph::schedule(kernel_);
@@ -113,11 +145,11 @@ class BodyPrinter {
         for (const graph::Statement& statement : statements) {
             const Node& node = kernel_.graph[statement.node];
             if (statement.is_store)
-                body_ += fmt::format("    {}[{}] = {};\n", kernel_.output.name, statement.index,
+                body_ += fmt::format("{}{}[{}] = {};\n", indentation_, kernel_.output.name, statement.index,
                                      operand(statement.node));
             else
-                body_ += fmt::format("    const {} {} = {};\n", type_of(node.kind), names_.at(statement.node),
-                                     expression(node));
+                body_ += fmt::format("{}const {} {} = {};\n", indentation_, type_of(node.kind),
+                                     names_.at(statement.node), expression(node));
         }
         return body_;
     }
@@ -134,7 +166,7 @@ class BodyPrinter {
         for (Id id = 0; id < kernel_.graph.size(); ++id) {
             const Node& node = kernel_.graph[id];
             if (node.op == Op::input && node.kind == Kind::rotation)
-                body_ += fmt::format("    const T {} = {}[{}];\n", names_.at(id),
+                body_ += fmt::format("{}const T {} = {}[{}];\n", indentation_, names_.at(id),
                                      kernel_.inputs[node.array].name, node.index);
         }
     }
@@ -178,36 +210,40 @@ class BodyPrinter {
 
     const Kernel& kernel_;
     std::map<Id, std::string> names_;
+    std::string indentation_;
     std::string body_;
 };
 
 std::string print_kernel(const Kernel& kernel) {
-    return fmt::format("\n{}{}void {}({}) {{\n{}}}\n", kernel_comment(kernel), template_line(kernel),
-                       kernel.name, parameters(kernel), BodyPrinter(kernel).print());
+    const std::string head = fmt::format("\n{}{}void {}({}) {{\n", kernel_comment(kernel),
+                                         template_line(kernel), kernel.name, parameters(kernel));
+    if (kernel.for_channels.empty()) return head + BodyPrinter(kernel, 4).print() + "}\n";
+    std::string arguments;
+    for (const graph::Array& array : kernel.inputs) arguments += array.name + ", ";
+    return head + fmt::format(
+                      "    if constexpr (!std::is_same_v<T, V>) {{\n        {}({}{});\n    }} else {{\n{}    "
+                      "}}\n}}\n",
+                      kernel.for_channels, arguments, kernel.output.name, BodyPrinter(kernel, 8).print());
 }
 
-std::string print_bounds(const Unit& unit) {
+std::string print_constants(const Unit& unit) {
     std::string text;
-    for (const auto& [kernel, bound] : unit.bounds) {
-        text += fmt::format("\n/// Largest relative error of {}, {}.\n", kernel, unit.domain);
-        text += fmt::format("inline constexpr double k{}BoundFloat = {};\n", pascal_case(kernel),
-                            bound.float_text);
-        text += fmt::format("inline constexpr double k{}BoundDouble = {};\n", pascal_case(kernel),
-                            bound.double_text);
+    for (const Constant& constant : unit.constants)
+        text += fmt::format("\n/// {}.\ninline constexpr int {} = {};\n", constant.meaning, constant.name,
+                            constant.value);
+    for (const Kernel& kernel : unit.kernels) {
+        const auto bound = unit.bounds.find(kernel.name);
+        if (bound == unit.bounds.end()) continue;
+        const std::string name = pascal_case(kernel.name);
+        text += fmt::format("\n/// Largest relative error of {}, {}, where R is orthonormal,\n", kernel.name,
+                            domain_text(kernel));
+        text += "/// and what is added for each unit of |R R^T - I|_F.\n";
+        text += fmt::format("inline constexpr double k{}BoundFloat = {};\n", name, bound->second.float_text);
+        text +=
+            fmt::format("inline constexpr double k{}BoundDouble = {};\n", name, bound->second.double_text);
+        text += fmt::format("inline constexpr double k{}Excess = {};\n", name, bound->second.excess_text);
     }
     return text;
-}
-
-std::string print_forward(const Unit& unit, const Forward& forward) {
-    for (const Kernel& kernel : unit.kernels) {
-        if (kernel.name != forward.target) continue;
-        std::string arguments;
-        for (const graph::Array& array : kernel.inputs) arguments += array.name + ", ";
-        return fmt::format("\n{}{}void {}({}) {{\n    {}({}{});\n}}\n", comment_lines(forward.summary),
-                           template_line(kernel), forward.name, parameters(kernel), kernel.name, arguments,
-                           kernel.output.name);
-    }
-    throw std::logic_error("no kernel named " + forward.target);
 }
 
 }  // namespace
@@ -217,9 +253,8 @@ std::string print_cpp(const Unit& unit) {
     for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
     text += fmt::format("#pragma once\n\n#include <type_traits>\n\nnamespace zonal::{} {{\n", unit.name);
     text += kPrelude;
-    text += print_bounds(unit);
+    text += print_constants(unit);
     for (const Kernel& kernel : unit.kernels) text += print_kernel(kernel);
-    for (const Forward& forward : unit.forwards) text += print_forward(unit, forward);
     return text + fmt::format("\n}}  // namespace zonal::{}\n", unit.name);
 }
 

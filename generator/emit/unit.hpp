@@ -8,17 +8,19 @@
 
 namespace zonal::emit {
 
-/// A second name for a kernel of the same unit.
-struct Forward {
-    std::string name;
-    std::string target;
-    std::string summary;
-};
-
-/// The published largest error of one kernel relative to the norm of its input, by type.
+/// The published largest error of one kernel relative to the norm of its input, by type, and what is added to
+/// it for each unit of |R R^T - I|_F.
 struct Bound {
     std::string float_text;
     std::string double_text;
+    std::string excess_text;
+};
+
+/// A number that callers need to know at compile time.
+struct Constant {
+    std::string name;
+    int value = 0;
+    std::string meaning;
 };
 
 /// Everything one generated file holds, ready to print in any language: kernels are optimized, texts are
@@ -26,12 +28,11 @@ struct Bound {
 struct Unit {
     std::string name;     ///< "order4": namespace or prefix
     std::string command;  ///< the command that makes the same bytes again
-    std::string table;    ///< path and hash of the lobe table
+    std::string table;    ///< path and hash of the lobe table; or that there is none
     std::string basis;    ///< the convention, one line
-    std::string domain;   ///< the rotations that the bound holds for
     std::vector<std::string> sources;
     std::vector<graph::Kernel> kernels;
-    std::vector<Forward> forwards;
+    std::vector<Constant> constants;
     std::map<std::string, Bound> bounds;  ///< by kernel name; a kernel without one says so in the banner
 };
 

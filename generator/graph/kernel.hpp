@@ -26,8 +26,8 @@ struct Store {
 /// One function to emit: its graph, its arguments and what its comment says.
 struct Kernel {
     std::string name;
-    std::string summary;  ///< what it computes, one or two lines
-    std::string source;   ///< author, year, equation
+    std::string summary;               ///< what it computes, one or two lines
+    std::vector<std::string> sources;  ///< author, year, equation; one a method
     std::vector<Array> inputs;
     Array output;
     Graph graph;
@@ -35,8 +35,8 @@ struct Kernel {
     bool needs_proper_rotation = false;  ///< right for determinant +1 only
     /// The kernel to call instead where a signal value holds several channels; empty: this one.
     std::string for_channels;
-    /// What is added to the published error bound, by the rotation's own fault; empty: no bound is published.
-    std::string bound_excess;
+    bool needs_lobes = false;  ///< built from a lobe table
+    bool has_bound = false;  ///< an error bound is published for it
 
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
     void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }

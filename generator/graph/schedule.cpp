@@ -78,4 +78,48 @@ int peak_live_values(const Kernel& kernel, const std::vector<Statement>& stateme
     return peak;
 }
 
+Spills simulate_spills(const Kernel& kernel, const std::vector<Statement>& statements, int registers) {
+    const auto operands_of = [&](const Statement& statement) {
+        std::vector<Id> computed;
+        const std::vector<Id> all =
+            statement.is_store ? std::vector<Id>{statement.node} : kernel.graph[statement.node].operands;
+        for (const Id id : all)
+            if (is_computed(kernel.graph[id])) computed.push_back(id);
+        return computed;
+    };
+    std::vector<std::vector<int>> uses(kernel.graph.size());  // last first
+    for (int at = static_cast<int>(statements.size()) - 1; at >= 0; --at)
+        for (const Id id : operands_of(statements[at])) uses[id].push_back(at);
+
+    Spills spills;
+    std::set<Id> held, saved;
+    const auto make_room = [&](const std::vector<Id>& pinned) {
+        if (static_cast<int>(held.size()) < registers) return;
+        Id furthest = -1;
+        for (const Id id : held) {
+            if (std::find(pinned.begin(), pinned.end(), id) != pinned.end()) continue;
+            if (furthest < 0 || uses[id].back() > uses[furthest].back()) furthest = id;
+        }
+        held.erase(furthest);
+        if (saved.insert(furthest).second) ++spills.stores;
+    };
+    for (int at = 0; at < static_cast<int>(statements.size()); ++at) {
+        const std::vector<Id> operands = operands_of(statements[at]);
+        for (const Id id : operands) {
+            if (held.contains(id)) continue;
+            make_room(operands);
+            held.insert(id);
+            ++spills.reloads;
+        }
+        for (const Id id : operands) {
+            while (!uses[id].empty() && uses[id].back() <= at) uses[id].pop_back();
+            if (uses[id].empty()) held.erase(id);
+        }
+        if (statements[at].is_store) continue;
+        make_room({});
+        held.insert(statements[at].node);
+    }
+    return spills;
+}
+
 }  // namespace zonal::graph

@@ -23,4 +23,13 @@ bool is_safe_in_place(const Kernel& kernel, const std::vector<Statement>& statem
 /// constants are literals: neither counts.
 int peak_live_values(const Kernel& kernel, const std::vector<Statement>& statements);
 
+/// What a machine of so many registers moves to and from memory because values wait longer than registers
+/// last: the value needed furthest in the future goes first (Belady 1966). Inputs and constants are memory
+/// operands.
+struct Spills {
+    int stores = 0;
+    int reloads = 0;
+};
+Spills simulate_spills(const Kernel& kernel, const std::vector<Statement>& statements, int registers);
+
 }  // namespace zonal::graph

@@ -26,7 +26,7 @@ using graph::Kernel;
 using graph::Kind;
 using graph::Value;
 
-const char* const kPaper = "Nowrouzezahrai et al., ";
+const char* const kPaper = "Nowrouzezahrai, Simari, Fiume 2012, ";
 const char* const kSignalLayout = "index l(l+1)+m";
 const char* const kLobeLayout = "band l at l*l, lobe d at l*l + d, d = 0 .. 2l in table order";
 
@@ -233,7 +233,7 @@ Kernel build_factorize(const LobeSet& lobes) {
     Kernel kernel;
     kernel.name = "factorize";
     kernel.summary = "Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.";
-    kernel.source = std::string(kPaper) + "eq. 7 and the one after it";
+    kernel.sources = {std::string(kPaper) + "eq. 7 and the one after it"};
     kernel.inputs = {{"f", Kind::signal, lobes.order * lobes.order, kSignalLayout}};
     kernel.output = {"z", Kind::signal, lobes.order * lobes.order, kLobeLayout};
     build_band_products(kernel, lobes, "d", [&](int l, int d, int m) { return lobes.bands[l].a_hat(m, d); });
@@ -244,7 +244,7 @@ Kernel build_expand(const LobeSet& lobes) {
     Kernel kernel;
     kernel.name = "expand";
     kernel.summary = "The signal that weighted lobes sum to: f = Y^T z, band by band; undoes factorize.";
-    kernel.source = std::string(kPaper) + "section 4";
+    kernel.sources = {std::string(kPaper) + "section 4"};
     kernel.inputs = {{"z", Kind::signal, lobes.order * lobes.order, kLobeLayout}};
     kernel.output = {"f", Kind::signal, lobes.order * lobes.order, kSignalLayout};
     std::vector<exact::Matrix<Real>> y;
@@ -261,7 +261,7 @@ Kernel build_resample(const LobeSet& lobes) {
     kernel.summary =
         "The rotated signal from samples of its bands: element l*l + d of samples is band l of the\n"
         "unrotated signal, f_l(w) = sum_m f_lm y_lm(w), at w = R^T (direction of lobe d).";
-    kernel.source = std::string(kPaper) + "eq. 11";
+    kernel.sources = {std::string(kPaper) + "eq. 11"};
     kernel.inputs = {{"samples", Kind::signal, lobes.order * lobes.order, kLobeLayout}};
     kernel.output = {"out", Kind::signal, lobes.order * lobes.order, kSignalLayout};
     build_band_products(kernel, lobes, "m", [&](int l, int m, int d) { return lobes.bands[l].a_hat(m, d); });
@@ -272,7 +272,7 @@ Kernel build_lobes(const LobeSet& lobes) {
     Kernel kernel;
     kernel.name = "lobes";
     kernel.summary = "Turns the lobe directions of the table: R times each.";
-    kernel.source = std::string(kPaper) + "eq. 9";
+    kernel.sources = {std::string(kPaper) + "eq. 9"};
     kernel.inputs = {rotation_array()};
     const int count = static_cast<int>(lobes.directions.size());
     kernel.output = {"directions", Kind::rotation, 3 * count, "unit vectors x, y, z, in table order"};
@@ -291,8 +291,8 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
     kernel.summary =
         "Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.\n"
         "Bands are independent: a NaN stays in its band.";
-    kernel.source = std::string(kPaper) + "eq. 10";
-    kernel.bound_excess = fmt::format("{}/2 |R R^T - I|_F", lobes.order - 1);
+    kernel.sources = {std::string(kPaper) + "eq. 10"};
+    kernel.has_bound = true;
     kernel.inputs = {rotation_array(), {"f", Kind::signal, lobes.order * lobes.order, kSignalLayout}};
     kernel.output = {"out", Kind::signal, lobes.order * lobes.order, kSignalLayout};
     const Matrix3 given = rotation_rows(kernel);

@@ -7,7 +7,8 @@
 
 namespace zonal::kernels {
 
-/// Every kernel of an order, optimized, in the order they are emitted. Adding a method is one line here.
-std::vector<graph::Kernel> build_order(const LobeSet& lobes);
+/// Every kernel of an order, optimized, in the order they are emitted; without lobes (null) those that need
+/// none. Adding a method is one line here.
+std::vector<graph::Kernel> build_order(int order, const LobeSet* lobes);
 
 }  // namespace zonal::kernels

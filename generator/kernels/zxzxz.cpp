@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <mutex>
 #include <optional>
 
 #include "exact/orthogonal_block.hpp"
@@ -75,6 +76,8 @@ struct Band {
 
 const Band& band_blocks(int l) {
     static std::map<int, Band> known;
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
     const auto found = known.find(l);
     if (found != known.end()) return found->second;
     Band band;

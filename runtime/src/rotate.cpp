@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
 #include "checks.hpp"
 #include "zonal/error.hpp"
@@ -28,16 +27,15 @@ void check_compiled(int order) {
                  .next_step = "add the order to cmake/orders.cmake, generate its kernels and build again"});
 }
 
-template <class V>
-void check_overlap(std::span<const V> in, std::span<V> out) {
-    const std::less<const V*> before;
-    const bool overlaps =
-        before(in.data(), out.data() + out.size()) && before(out.data(), in.data() + in.size());
-    if (!overlaps || in.data() == out.data()) return;
-    throw Error({.field = "in and out",
-                 .found = "spans that overlap in part",
-                 .wanted = "the same span, or separate ones",
-                 .next_step = "rotate into a separate array"});
+template <class T, class V>
+void dispatch(int order, const T* rotation, const V* in, V* out) {
+    switch (order) {
+#define ZONAL_CASE(N) \
+    case N:           \
+        return order##N::rotate<T, V>(rotation, in, out);
+        ZONAL_FOR_EACH_ORDER(ZONAL_CASE)
+#undef ZONAL_CASE
+    }
 }
 
 template <class T, class V>
@@ -45,14 +43,13 @@ void checked_rotate(int order, const RotationMatrix<T>& rotation, std::span<cons
     check_compiled(order);
     check_length("in", order, in.size());
     check_length("out", order, out.size());
-    check_overlap(in, out);
-    switch (order) {
-#define ZONAL_CASE(N) \
-    case N:           \
-        return order##N::rotate<T, V>(rotation.data(), in.data(), out.data());
-        ZONAL_FOR_EACH_ORDER(ZONAL_CASE)
-#undef ZONAL_CASE
-    }
+    check_no_partial_overlap("in and out", in, out);
+    // Kernels need determinant +1: a mirror is a rotation by -R, then a change of sign in the odd bands.
+    if (!is_mirror(rotation)) return dispatch(order, rotation.data(), in.data(), out.data());
+    const RotationMatrix<T> turned(-rotation.matrix());
+    dispatch(order, turned.data(), in.data(), out.data());
+    for (int l = 1; l < order; l += 2)
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i) out[i] = -out[i];
 }
 
 }  // namespace

@@ -1,32 +1,129 @@
 #include "support/accuracy.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace zonal::accuracy {
 
-Error compare(int order, const oracle::Rotation& exact, const oracle::Matrix3& rotation,
-              const std::vector<oracle::Real>& f, const std::vector<oracle::Real>& result) {
-    const std::vector<oracle::Real> expected = exact(rotation, f);
-    oracle::Real difference = 0, norm = 0;
-    for (std::size_t i = 0; i < f.size(); ++i) {
-        difference += (result[i] - expected[i]) * (result[i] - expected[i]);
-        norm += f[i] * f[i];
-    }
-    Error error;
-    // A vector of zeros must come out as zeros: any difference counts in full.
-    error.relative = static_cast<double>(std::sqrt(norm > 0 ? difference / norm : difference));
-    error.excused = static_cast<double>((order - 1) * oracle::orthonormality_error(rotation) / 2);
-    return error;
+namespace {
+
+template <class T>
+oracle::Matrix3 as_given(const cases::Matrix& rotation) {
+    oracle::Matrix3 given;
+    for (int i = 0; i < 9; ++i) given[i] = static_cast<T>(rotation[i]);
+    return given;
 }
 
-double zhf_contract(int order, bool is_float) {
+oracle::Real determinant(const oracle::Matrix3& r) {
+    return r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) +
+           r[2] * (r[3] * r[7] - r[4] * r[6]);
+}
+
+}  // namespace
+
+template <class T>
+Contestant<T> with_mirrors(int order, Contestant<T> kernel) {
+    const auto rotate = kernel.rotate;
+    kernel.rotate = [order, rotate](const T* R, const T* f, T* out) {
+        oracle::Matrix3 given;
+        std::copy(R, R + 9, given.begin());
+        if (determinant(given) > 0) return rotate(R, f, out);
+        T negative[9];
+        std::transform(R, R + 9, negative, [](T entry) { return -entry; });
+        rotate(negative, f, out);
+        for (int l = 1; l < order; l += 2)
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i) out[i] = -out[i];
+    };
+    return kernel;
+}
+
+template <class T>
+std::vector<Problem> problems(int order, int random_count, int thinning, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<Problem> all;
+    const auto add = [&](const std::string& name, const cases::Matrix& rotation, std::vector<double> signal) {
+        const bool is_noisy = name.starts_with("orthonormal only");
+        all.push_back({name, rotation, std::move(signal), is_noisy});
+    };
+    for (int k = 0; k < random_count; ++k) {
+        const cases::Matrix rotation = cases::random_rotation(random);
+        add("random rotation", rotation, cases::random_signal(order, random));
+    }
+    std::map<std::string, int> seen;
+    for (const cases::Case& hard : cases::hard_rotations<T>(random)) {
+        constexpr int kAlwaysTaken = 100;
+        const int number = seen[hard.name]++;
+        if (number >= kAlwaysTaken && number % thinning != 0) continue;
+        add(hard.name, hard.rotation, cases::random_signal(order, random));
+    }
+    for (const std::vector<double>& f : cases::hard_signals(order, random))
+        for (int k = 0; k < 20; ++k) add("hard signal", cases::random_rotation(random), f);
+    return all;
+}
+
+template <class T>
+std::vector<Worst> worst_errors(int order, const std::vector<Problem>& problems,
+                                const std::vector<Contestant<T>>& kernels) {
+    const oracle::Rotation exact(order);
+    std::vector<Worst> worst(kernels.size());
+    for (const Problem& problem : problems) {
+        const oracle::Matrix3 given = as_given<T>(problem.rotation);
+        const std::vector<T> f(problem.signal.begin(), problem.signal.end());
+        const std::vector<oracle::Real> expected = exact(given, {f.begin(), f.end()});
+        const double defect = static_cast<double>(oracle::orthonormality_error(given));
+        T r[9];
+        std::copy(given.begin(), given.end(), r);
+        for (std::size_t k = 0; k < kernels.size(); ++k) {
+            std::vector<T> out(f.size());
+            kernels[k].rotate(r, f.data(), out.data());
+            oracle::Real difference = 0, norm = 0;
+            for (std::size_t i = 0; i < f.size(); ++i) {
+                difference += (out[i] - expected[i]) * (out[i] - expected[i]);
+                norm += static_cast<oracle::Real>(f[i]) * f[i];
+            }
+            // A vector of zeros must come out as zeros: any difference counts in full.
+            double error = static_cast<double>(std::sqrt(norm > 0 ? difference / norm : difference));
+            if (std::isnan(error)) error = std::numeric_limits<double>::infinity();
+            const double beyond = error - kernels[k].excess * defect;
+            if (beyond > worst[k].error) {
+                worst[k].error = beyond;
+                worst[k].name = problem.name;
+            }
+            const double beyond_contract = error - (order - 1) / 2.0 * defect;
+            if (!problem.is_noisy && beyond_contract > worst[k].error_of_rotations) {
+                worst[k].error_of_rotations = beyond_contract;
+                worst[k].name_of_rotations = problem.name;
+            }
+        }
+    }
+    return worst;
+}
+
+double contract(const std::string& kernel, int order, bool is_float) {
     struct Point {
         int order;
         double float_bound, double_bound;
     };
-    static const std::vector<Point> points{{3, 6e-7, 2e-14}, {4, 1e-6, 3e-14}, {5, 2e-6, 4e-14},
-                                           {6, 3e-6, 6e-14}, {8, 5e-6, 1e-13}, {10, 8e-6, 1e-13},
-                                           {20, 3e-5, 1e-12}};
+    static const std::vector<Point> rotate{{2, 1.2e-7, 3e-16},   {3, 2.8e-7, 6e-16}, {4, 8e-7, 1.5e-15},
+                                           {5, 1.3e-6, 3.5e-15}, {6, 1.8e-6, 5e-15}, {8, 2e-6, 7e-15},
+                                           {10, 2.5e-6, 8e-15},  {20, 5e-6, 3e-14}};
+    static const std::vector<Point> accurate{{2, 1.2e-7, 3e-16},  {3, 1.8e-7, 5e-16}, {4, 2e-7, 6e-16},
+                                             {5, 3e-7, 1e-15},    {6, 3e-7, 1.2e-15}, {8, 3.5e-7, 1.6e-15},
+                                             {10, 4.5e-7, 2e-15}, {20, 1.2e-6, 5e-15}};
+    // The contract has no row of blocks in double: that of rotate_accurate, which multiplies by them.
+    static const std::vector<Point> blocks{{2, 1.5e-7, 3e-16}, {3, 2e-7, 5e-16},     {4, 2e-7, 6e-16},
+                                           {5, 2.5e-7, 1e-15}, {6, 2.5e-7, 1.2e-15}, {8, 3e-7, 1.6e-15},
+                                           {10, 4e-7, 2e-15},  {20, 1e-6, 5e-15}};
+    static const std::vector<Point> zhf{{3, 6e-7, 2e-14}, {4, 1e-6, 3e-14}, {5, 2e-6, 4e-14},
+                                        {6, 3e-6, 6e-14}, {8, 5e-6, 1e-13}, {10, 8e-6, 1e-13},
+                                        {20, 3e-5, 1e-12}};
+    static const std::map<std::string, const std::vector<Point>*> all{
+        {"rotate", &rotate}, {"rotate_channels", &rotate}, {"apply", &rotate}, {"rotate_accurate", &accurate},
+        {"blocks", &blocks}, {"rotate_zhf", &zhf}};
+    const std::vector<Point>& points = *all.at(kernel);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const Point &a = points[k], &b = points[k + 1];
         if (order < a.order || order > b.order) continue;
@@ -36,5 +133,14 @@ double zhf_contract(int order, bool is_float) {
     }
     throw std::out_of_range("no contract for this order");
 }
+
+template Contestant<float> with_mirrors(int, Contestant<float>);
+template Contestant<double> with_mirrors(int, Contestant<double>);
+template std::vector<Problem> problems<float>(int, int, int, std::uint64_t);
+template std::vector<Problem> problems<double>(int, int, int, std::uint64_t);
+template std::vector<Worst> worst_errors(int, const std::vector<Problem>&,
+                                         const std::vector<Contestant<float>>&);
+template std::vector<Worst> worst_errors(int, const std::vector<Problem>&,
+                                         const std::vector<Contestant<double>>&);
 
 }  // namespace zonal::accuracy

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,58 +9,46 @@
 
 namespace zonal::accuracy {
 
-/// How far one result is from the truth, as the published bounds count it.
-struct Error {
-    double relative = 0;  ///< ‖result - exact‖₂ / ‖f‖₂
-    double excused = 0;   ///< (N-1) ½ ‖R Rᵀ - I‖_F, what R itself lacks
-
-    double beyond_excused() const { return relative - excused; }
-};
-
-/// Compares a result with the oracle's rotation of `f` by the orthonormal matrix nearest to `rotation`.
-Error compare(int order, const oracle::Rotation& exact, const oracle::Matrix3& rotation,
-              const std::vector<oracle::Real>& f, const std::vector<oracle::Real>& result);
-
-/// Runs `rotate(R, f, out)` in T, on a case rounded to T, and compares.
-template <class T, class Rotate>
-Error measure(int order, const oracle::Rotation& exact, const cases::Matrix& rotation,
-              const std::vector<double>& signal, Rotate rotate) {
-    T r[9];
-    std::copy(rotation.begin(), rotation.end(), r);
-    std::vector<T> f(signal.begin(), signal.end()), out(signal.size());
-    rotate(r, f.data(), out.data());
-    oracle::Matrix3 given;
-    std::copy(r, r + 9, given.begin());
-    return compare(order, exact, given, {f.begin(), f.end()}, {out.begin(), out.end()});
-}
-
-/// The worst error of `rotate` in T over `random_count` random rotations and the hard ones, each with a
-/// random signal, and over the hard signals. `name_of_worst` tells where it was met.
-struct Worst {
-    double beyond_excused = 0;
+/// A kernel that turns a signal, as it is judged: `rotate(R, f, out)`.
+template <class T>
+struct Contestant {
     std::string name;
+    std::function<void(const T* R, const T* f, T* out)> rotate;
+    double excess = 0;  ///< what its bound grows by for each unit of ‖R Rᵀ - I‖_F
 };
-template <class T, class Rotate>
-Worst worst_error(int order, int random_count, std::uint64_t seed, Rotate rotate) {
-    std::mt19937_64 random(seed);
-    const oracle::Rotation exact(order);
-    Worst worst;
-    const auto visit = [&](const std::string& name, const cases::Matrix& rotation,
-                           const std::vector<double>& f) {
-        const double error = measure<T>(order, exact, rotation, f, rotate).beyond_excused();
-        if (!(error <= worst.beyond_excused)) worst = {error, name};  // also when it is NaN
-    };
-    for (int k = 0; k < random_count; ++k)
-        visit("random rotation", cases::random_rotation(random), cases::random_signal(order, random));
-    for (const cases::Case& hard : cases::hard_rotations<T>(random))
-        visit(hard.name, hard.rotation, cases::random_signal(order, random));
-    for (const std::vector<double>& f : cases::hard_signals(order, random))
-        for (int k = 0; k < 20; ++k) visit("hard signal", cases::random_rotation(random), f);
-    return worst;
-}
 
-/// The largest error b_N that `rotate_zhf` may have by the project's own contract, for N = 3 … 20 (linear
-/// interpolation between the orders that the contract names).
-double zhf_contract(int order, bool is_float);
+/// The same kernel for mirrors too, where it is right for determinant +1 only: turned by -R, odd bands
+/// negated.
+template <class T>
+Contestant<T> with_mirrors(int order, Contestant<T> kernel);
+
+/// What is turned: 10^4 random rotations or fewer, the hard rotations (every `thinning`-th of those that come
+/// by the hundred), a random signal each, and the hard signals.
+struct Problem {
+    std::string name;
+    cases::Matrix rotation;
+    std::vector<double> signal;
+    bool is_noisy = false;  ///< the rotation is meant not to be orthonormal
+};
+template <class T>
+std::vector<Problem> problems(int order, int random_count, int thinning, std::uint64_t seed);
+
+/// The worst error of a kernel: ‖result - exact‖₂ / ‖f‖₂ less what R itself excuses, where exact is the turn by the
+/// orthonormal matrix nearest to R as it is given in T. NaN counts as infinite.
+struct Worst {
+    double error = 0;  ///< less the kernel's own excess times ‖R Rᵀ - I‖_F
+    std::string name;  ///< where it was met
+    /// Less (N-1)/2 ‖R Rᵀ - I‖_F, over the rotations that are orthonormal as far as T tells.
+    double error_of_rotations = 0;
+    std::string name_of_rotations;
+};
+template <class T>
+std::vector<Worst> worst_errors(int order, const std::vector<Problem>& problems,
+                                const std::vector<Contestant<T>>& kernels);
+
+/// The largest error b_N that a kernel may have by the project's own contract, for N = 2 … 20 (linear
+/// interpolation between the orders that the contract names). `kernel`: rotate, rotate_channels, apply,
+/// rotate_accurate, blocks or rotate_zhf.
+double contract(const std::string& kernel, int order, bool is_float);
 
 }  // namespace zonal::accuracy

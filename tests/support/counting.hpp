@@ -26,9 +26,7 @@ struct Counting {
         return ++tally.fma, Counting(a.value * b.value + c.value);
     }
     friend Counting sqrt(Counting a) { return ++tally.other, Counting(std::sqrt(a.value)); }
-    friend Counting copysign(Counting a, Counting b) {
-        return Counting(std::copysign(a.value, b.value));
-    }
+    friend Counting copysign(Counting a, Counting b) { return Counting(std::copysign(a.value, b.value)); }
 };
 
 }  // namespace zonal

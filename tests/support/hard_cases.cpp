@@ -1,5 +1,7 @@
 #include "support/hard_cases.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,13 +10,38 @@ namespace zonal::cases {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using Real = long double;
+/// A matrix before it is rounded, once, to what a kernel is given.
+using Exact = std::array<Real, 9>;
 
-std::array<double, 3> random_axis(std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    std::array<double, 3> axis{normal(random), normal(random), normal(random)};
-    const double norm = std::hypot(axis[0], axis[1], axis[2]);
-    for (double& component : axis) component /= norm;
+constexpr Real kPi = std::numbers::pi_v<Real>;
+
+Matrix rounded(const Exact& matrix) {
+    Matrix result{};
+    for (int i = 0; i < 9; ++i) result[i] = static_cast<double>(matrix[i]);
+    return result;
+}
+
+Exact product_of(const Exact& a, const Exact& b) {
+    Exact result{};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k) result[3 * i + j] += a[3 * i + k] * b[3 * k + j];
+    return result;
+}
+
+Exact turn(const std::array<Real, 3>& axis, Real angle_rad) {
+    const Real c = std::cos(angle_rad), s = std::sin(angle_rad), t = 2 * std::pow(std::sin(angle_rad / 2), 2);
+    const auto [x, y, z] = axis;
+    return {c + t * x * x,     t * x * y - s * z, t * x * z + s * y, t * x * y + s * z, c + t * y * y,
+            t * y * z - s * x, t * x * z - s * y, t * y * z + s * x, c + t * z * z};
+}
+
+std::array<Real, 3> random_axis(std::mt19937_64& random) {
+    std::normal_distribution<Real> normal;
+    std::array<Real, 3> axis{normal(random), normal(random), normal(random)};
+    const Real norm = std::hypot(axis[0], axis[1], axis[2]);
+    for (Real& component : axis) component /= norm;
     return axis;
 }
 
@@ -44,26 +71,23 @@ Matrix product(const Matrix& a, const Matrix& b) { return rounded_product<double
 Matrix transposed(const Matrix& a) { return {a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}; }
 
 Matrix about_axis(const std::array<double, 3>& axis, double angle_rad) {
-    const double c = std::cos(angle_rad), s = std::sin(angle_rad),
-                 t = 2 * std::pow(std::sin(angle_rad / 2), 2);
-    const auto [x, y, z] = axis;
-    return {c + t * x * x,     t * x * y - s * z, t * x * z + s * y, t * x * y + s * z, c + t * y * y,
-            t * y * z - s * x, t * x * z - s * y, t * y * z + s * x, c + t * z * z};
+    const std::array<Real, 3> exact{axis[0], axis[1], axis[2]};
+    return rounded(turn(exact, angle_rad));
 }
 
 Matrix random_rotation(std::mt19937_64& random) {
     // A normally distributed quaternion is uniform over rotations.
-    std::normal_distribution<double> normal;
-    double q[4], norm = 0;
-    for (double& component : q) {
+    std::normal_distribution<Real> normal;
+    Real q[4], norm = 0;
+    for (Real& component : q) {
         component = normal(random);
         norm += component * component;
     }
-    for (double& component : q) component /= std::sqrt(norm);
+    for (Real& component : q) component /= std::sqrt(norm);
     const auto [w, x, y, z] = q;
-    return {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
-            2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-            2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
+    return rounded({1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 2 * (x * y + z * w),
+                    1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 2 * (x * z - y * w), 2 * (y * z + x * w),
+                    1 - 2 * (x * x + y * y)});
 }
 
 template <class T>
@@ -84,39 +108,40 @@ Matrix rounded_product(const Matrix& a, const Matrix& b) {
 
 template <class T>
 std::vector<Case> hard_rotations(std::mt19937_64& random) {
-    std::uniform_real_distribution<double> angle(-kPi, kPi);
-    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<Real> angle(-kPi, kPi);
     std::vector<Case> cases = signed_permutations();
     cases.push_back({"identity", {1, 0, 0, 0, 1, 0, 0, 0, 1}});
-    for (const auto& axis : {std::array{1.0, 0.0, 0.0}, std::array{0.0, 1.0, 0.0}, std::array{0.0, 0.0, 1.0}})
-        cases.push_back({"half turn about an axis", about_axis(axis, kPi)});
+    for (const auto& axis : {std::array<Real, 3>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+        cases.push_back({"half turn about an axis", rounded(turn(axis, kPi))});
     for (int k = 0; k < 50; ++k) {
-        cases.push_back({"half turn about a random axis", about_axis(random_axis(random), kPi)});
+        cases.push_back({"half turn about a random axis", rounded(turn(random_axis(random), kPi))});
         cases.push_back({"mirror", scaled(random_rotation(random), -1)});
     }
     for (int exponent = 1; exponent <= 8; ++exponent) {
-        for (const double pole : {0.0, kPi}) {
+        for (const Real pole : {Real(0), kPi}) {
             for (int k = 0; k < 20; ++k) {
-                const Matrix tilt = about_axis({0, 1, 0}, pole + std::pow(10.0, -exponent));
-                const Matrix before = about_axis({0, 0, 1}, angle(random)),
-                             after = about_axis({0, 0, 1}, angle(random));
-                cases.push_back({"tilt from a pole", product(after, product(tilt, before))});
+                const Exact tilt = turn({0, 1, 0}, pole + std::pow(Real(10), -exponent));
+                const Exact before = turn({0, 0, 1}, angle(random)), after = turn({0, 0, 1}, angle(random));
+                cases.push_back({"tilt from a pole", rounded(product_of(after, product_of(tilt, before)))});
             }
         }
     }
     for (int k = 0; k < 3000; ++k) {
-        const Matrix a = random_rotation(random), z = about_axis({0, 0, 1}, angle(random));
+        const Matrix a = random_rotation(random), z = rounded(turn({0, 0, 1}, angle(random)));
         cases.push_back({"product of rounded matrices that is a z rotation",
                          rounded_product<T>(rounded_product<T>(a, transposed(a)), z)});
     }
-    for (const double noise : {1e-3, 1e-5, 1e-7}) {
-        for (int k = 0; k < 300; ++k) {
-            Matrix matrix = random_rotation(random);
-            for (double& entry : matrix) entry += noise * normal(random) / 3;
-            cases.push_back({"orthonormal only to " + std::to_string(noise), matrix});
-        }
-    }
+    for (const double noise : {1e-3, 1e-5, 1e-7})
+        for (int k = 0; k < 300; ++k)
+            cases.push_back({fmt::format("orthonormal only to {}", noise),
+                             with_noise(random_rotation(random), noise, random)});
     return cases;
+}
+
+Matrix with_noise(Matrix rotation, double noise, std::mt19937_64& random) {
+    std::normal_distribution<double> normal;
+    for (double& entry : rotation) entry += noise * normal(random) / 3;
+    return rotation;
 }
 
 std::vector<double> random_signal(int order, std::mt19937_64& random) {

@@ -24,6 +24,10 @@ Matrix random_rotation(std::mt19937_64& random);
 template <class T>
 Matrix rounded_product(const Matrix& a, const Matrix& b);
 
+/// Every entry with normal noise of a third of `noise`, which is so nearly its largest: orthonormal only to
+/// `noise`.
+Matrix with_noise(Matrix rotation, double noise, std::mt19937_64& random);
+
 /// The rotations of design section 6: identity, half turns, axis permutations, mirrors, tilts from both
 /// poles, products of T matrices that should be a pure z rotation (noise at the pole), and matrices
 /// orthonormal only to 1e-3, 1e-5, 1e-7. `random` draws the axes and the noise.

@@ -7,14 +7,41 @@ namespace zonal {
 /// The generated kernels of order N as static members, so that a test can be written once for every order.
 template <int N>
 struct Order;
+/// The lobe kernels, for the orders that have them.
+template <int N>
+struct LobeOrder;
 
-#define ZONAL_TEST_ORDER(N)                                      \
+#define ZONAL_TEST_ORDER(N)                                           \
+    template <>                                                       \
+    struct Order<N> {                                                 \
+        static constexpr int kScalars = order##N::kScalars;           \
+        template <class T, class V>                                   \
+        static void rotate(const T* R, const V* f, V* out) {          \
+            order##N::rotate(R, f, out);                              \
+        }                                                             \
+        template <class T, class V>                                   \
+        static void rotate_accurate(const T* R, const V* f, V* out) { \
+            order##N::rotate_accurate(R, f, out);                     \
+        }                                                             \
+        template <class T>                                            \
+        static void blocks(const T* R, T* dense) {                    \
+            order##N::blocks(R, dense);                               \
+        }                                                             \
+        template <class T>                                            \
+        static void prepare(const T* R, T* scalars) {                 \
+            order##N::prepare(R, scalars);                            \
+        }                                                             \
+        template <class T, class V>                                   \
+        static void apply(const T* scalars, const V* f, V* out) {     \
+            order##N::apply(scalars, f, out);                         \
+        }                                                             \
+    };
+ZONAL_FOR_EACH_ORDER(ZONAL_TEST_ORDER)
+#undef ZONAL_TEST_ORDER
+
+#define ZONAL_TEST_LOBE_ORDER(N)                                 \
     template <>                                                  \
-    struct Order<N> {                                            \
-        template <class T, class V>                              \
-        static void rotate(const T* R, const V* f, V* out) {     \
-            order##N::rotate(R, f, out);                         \
-        }                                                        \
+    struct LobeOrder<N> {                                        \
         template <class T, class V>                              \
         static void rotate_zhf(const T* R, const V* f, V* out) { \
             order##N::rotate_zhf(R, f, out);                     \
@@ -36,7 +63,7 @@ struct Order;
             order##N::resample(samples, out);                    \
         }                                                        \
     };
-ZONAL_FOR_EACH_ORDER(ZONAL_TEST_ORDER)
-#undef ZONAL_TEST_ORDER
+ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_TEST_LOBE_ORDER)
+#undef ZONAL_TEST_LOBE_ORDER
 
 }  // namespace zonal

@@ -110,18 +110,40 @@ Rotation::Rotation(int order) : order_(order) {
     }
 }
 
+namespace {
+
+/// Qᵀ w.
+Vector3 turned_back(const Matrix3& q, const Vector3& w) {
+    return {q[0] * w[0] + q[3] * w[1] + q[6] * w[2], q[1] * w[0] + q[4] * w[1] + q[7] * w[2],
+            q[2] * w[0] + q[5] * w[1] + q[8] * w[2]};
+}
+
+}  // namespace
+
 std::vector<Real> Rotation::operator()(const Matrix3& rotation, const std::vector<Real>& f) const {
     const Matrix3 q = nearest_orthonormal(rotation);
     std::vector<Real> result(order_ * order_, 0);
     for (const Node& node : nodes_) {
-        const Vector3& w = node.direction;
-        const Vector3 turned_back{q[0] * w[0] + q[3] * w[1] + q[6] * w[2],
-                                  q[1] * w[0] + q[4] * w[1] + q[7] * w[2],
-                                  q[2] * w[0] + q[5] * w[1] + q[8] * w[2]};
-        const Real value = evaluate(order_, f, turned_back);
+        const Real value = evaluate(order_, f, turned_back(q, node.direction));
         for (std::size_t i = 0; i < result.size(); ++i) result[i] += value * node.weighted_basis[i];
     }
     return result;
+}
+
+std::vector<std::vector<Real>> Rotation::blocks(const Matrix3& rotation) const {
+    const Matrix3 q = nearest_orthonormal(rotation);
+    std::vector<std::vector<Real>> blocks;
+    for (int l = 0; l < order_; ++l) blocks.emplace_back((2 * l + 1) * (2 * l + 1), 0);
+    for (const Node& node : nodes_) {
+        const std::vector<Real> turned = basis(order_, turned_back(q, node.direction));
+        for (int l = 0; l < order_; ++l) {
+            const int size = 2 * l + 1;
+            for (int i = 0; i < size; ++i)
+                for (int j = 0; j < size; ++j)
+                    blocks[l][i * size + j] += node.weighted_basis[l * l + i] * turned[l * l + j];
+        }
+    }
+    return blocks;
 }
 
 }  // namespace zonal::oracle

@@ -2,7 +2,19 @@
 // command : zonal-gen emit --order 3 --language cpp --out generated/cpp
 // table   : generator/tables/order03.json  sha256:d50dc05cd1bddba8
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : factorize 9 mul 6 add 1 fma 0 other;
+// cost    : rotate_channels 10 mul 4 add 30 fma 0 other;
+//             per extra vector 10 mul 0 add 30 fma 0 other
+//           rotate 12 mul 1 add 31 fma 0 other;
+//             per extra vector 12 mul 1 add 31 fma 0 other
+//           prepare 43 mul 16 add 26 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           apply 8 mul 0 add 26 fma 0 other;
+//             per extra vector 8 mul 0 add 26 fma 0 other
+//           rotate_accurate 51 mul 16 add 52 fma 0 other;
+//             per extra vector 8 mul 0 add 26 fma 0 other
+//           blocks 43 mul 16 add 26 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           factorize 9 mul 6 add 1 fma 0 other;
 //             per extra vector 9 mul 6 add 1 fma 0 other
 //           expand 9 mul 10 add 1 fma 0 other;
 //             per extra vector 9 mul 10 add 1 fma 0 other
@@ -12,9 +24,19 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 32 mul 23 add 40 fma 0 other;
 //             per extra vector 32 mul 8 add 40 fma 0 other
-//           rotate: rotate_zhf
-// bound   : rotate_zhf relative error 6.0e-07 (float), 8.9e-16 (double), for det R = +1 or -1
-// source  : Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11
+// bound   : rotate_channels none published: see generator/tables/README.md
+//           rotate none published: see generator/tables/README.md
+//           apply none published: see generator/tables/README.md
+//           rotate_accurate none published: see generator/tables/README.md
+//           blocks none published: see generator/tables/README.md
+//           rotate_zhf none published: see generator/tables/README.md
+// source  : low bands as tensors, contracted with the rows of R
+//           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it
+//           Nowrouzezahrai, Simari, Fiume 2012, section 4
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 11
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 9
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 #pragma once
 
 #include <type_traits>
@@ -23,13 +45,26 @@ namespace zonal::order3 {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
+// Always inlined: files compiled for different targets must not share a copy.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+[[gnu::always_inline]] inline float fma(float a, float b, float c) {
+    return __builtin_fmaf(a, b, c);
+}
+[[gnu::always_inline]] inline double fma(double a, double b, double c) {
+    return __builtin_fma(a, b, c);
+}
 #else
-inline float fma(float a, float b, float c) { return a * b + c; }
-inline double fma(double a, double b, double c) { return a * b + c; }
+[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
+[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
 #endif
+[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
+[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
+[[gnu::always_inline]] inline float copysign(float size, float sign) {
+    return __builtin_copysignf(size, sign);
+}
+[[gnu::always_inline]] inline double copysign(double size, double sign) {
+    return __builtin_copysign(size, sign);
+}
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -41,16 +76,701 @@ struct scalar_of<V, std::void_t<typename V::value_type>> {
     using type = typename V::value_type;
 };
 
-/// Largest relative error of rotate_zhf, for det R = +1 or -1.
-inline constexpr double kRotateZhfBoundFloat = 6.0e-07;
-inline constexpr double kRotateZhfBoundDouble = 8.9e-16;
+/// 1 where the lobe kernels are here, else 0.
+inline constexpr int kHasLobes = 1;
+
+/// Values that `prepare` makes.
+inline constexpr int kScalars = 34;
+
+/// The cheapest exact rotation of three vectors at once.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// f : 9 values, index l(l+1)+m.
+/// out : 9 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
+/// odd bands.
+/// Error: at most (kRotateChannelsBound... + kRotateChannelsExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+template <class T, class V = T>
+void rotate_channels(const T* R, const V* f, V* out) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const V b2_1 = fma(T(1.7320508075688772), f[6], f[8]);
+    const T b2_2 = r20 + r20;
+    const T b2_3 = r21 + r21;
+    const V b2_4 = b2_3 * f[4];
+    const V b2_5 = fma(b2_2, f[8], b2_4);
+    const V b2_6 = fma(r22, f[7], b2_5);
+    const V b2_7 = b2_3 * f[5];
+    const V b2_8 = fma(r20, f[7], b2_7);
+    const V b2_9 = fma(r22, b2_1, b2_8);
+    const T b2_10 = r00 + r00;
+    const T b2_11 = r01 + r01;
+    const V b2_12 = b2_11 * f[4];
+    const V b2_13 = fma(b2_10, f[8], b2_12);
+    const V b2_14 = fma(r02, f[7], b2_13);
+    const V b2_15 = b2_11 * f[5];
+    const V b2_16 = fma(r00, f[7], b2_15);
+    const V b2_17 = fma(r02, b2_1, b2_16);
+    const V b2_18 = r02 * f[4];
+    const V b2_19 = fma(r00, f[5], -b2_18);
+    const V b2_20 = r12 * f[4];
+    const V b2_21 = fma(r10, f[5], -b2_20);
+    const V b2_22 = r22 * f[4];
+    const V b2_23 = fma(r20, f[5], -b2_22);
+    const V b2_24 = fma(-r20, b2_6, b2_1);
+    const V b2_25 = fma(-r22, b2_9, b2_24);
+    const V b2_26 = fma(T(0.5), b2_25, f[8]);
+    const V b2_27 = fma(-r10, b2_14, b2_23);
+    const V b2_28 = fma(r10, b2_6, b2_19);
+    const V b2_29 = fma(r12, b2_9, b2_28);
+    const V b2_30 = fma(T(-0.8660254037844386), b2_25, f[6]);
+    const V b2_31 = fma(-r00, b2_6, b2_21);
+    const V b2_32 = fma(-r00, b2_14, b2_26);
+    const V b2_33 = fma(r12, b2_17, -b2_27);
+    const V b2_34 = fma(r02, b2_9, -b2_31);
+    const V b2_35 = fma(r02, b2_17, -b2_32);
+    out[4] = b2_33;
+    out[5] = b2_29;
+    out[6] = b2_30;
+    out[7] = b2_34;
+    out[8] = b2_35;
+}
+
+/// The cheapest exact rotation of one vector.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// f : 9 values, index l(l+1)+m.
+/// out : 9 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Where V is not T, a value of several channels, this is rotate_channels.
+/// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+template <class T, class V = T>
+void rotate(const T* R, const V* f, V* out) {
+    if constexpr (!std::is_same_v<T, V>) {
+        rotate_channels(R, f, out);
+    } else {
+        const T r00 = R[0];
+        const T r01 = R[1];
+        const T r02 = R[2];
+        const T r10 = R[3];
+        const T r11 = R[4];
+        const T r12 = R[5];
+        const T r20 = R[6];
+        const T r21 = R[7];
+        const T r22 = R[8];
+        out[0] = f[0];
+        const V b1_1 = r11 * f[1];
+        const V b1_2 = fma(r10, f[3], b1_1);
+        const V b1_3 = fma(r12, f[2], b1_2);
+        const V b1_4 = r21 * f[1];
+        const V b1_5 = fma(r20, f[3], b1_4);
+        const V b1_6 = fma(r22, f[2], b1_5);
+        const V b1_7 = r01 * f[1];
+        const V b1_8 = fma(r00, f[3], b1_7);
+        const V b1_9 = fma(r02, f[2], b1_8);
+        out[1] = b1_3;
+        out[2] = b1_6;
+        out[3] = b1_9;
+        const V b2_1 = f[8] + f[8];
+        const V b2_2 = fma(T(1.7320508075688772), f[6], f[8]);
+        const V b2_3 = r21 * f[4];
+        const V b2_4 = fma(r20, b2_1, b2_3);
+        const V b2_5 = fma(r22, f[7], b2_4);
+        const V b2_6 = r22 * f[5];
+        const V b2_7 = fma(r20, f[4], b2_6);
+        const V b2_8 = r21 * f[5];
+        const V b2_9 = fma(r20, f[7], b2_8);
+        const V b2_10 = fma(r22, b2_2, b2_9);
+        const V b2_11 = r01 * f[4];
+        const V b2_12 = fma(r00, b2_1, b2_11);
+        const V b2_13 = fma(r02, f[7], b2_12);
+        const V b2_14 = r02 * f[5];
+        const V b2_15 = fma(r00, f[4], b2_14);
+        const V b2_16 = r01 * f[5];
+        const V b2_17 = fma(r00, f[7], b2_16);
+        const V b2_18 = fma(r02, b2_2, b2_17);
+        const V b2_19 = fma(-r20, b2_5, b2_2);
+        const V b2_20 = fma(-r21, b2_7, b2_19);
+        const V b2_21 = fma(-r22, b2_10, b2_20);
+        const V b2_22 = fma(T(0.5), b2_21, f[8]);
+        const V b2_23 = r11 * b2_15;
+        const V b2_24 = fma(r10, b2_13, b2_23);
+        const V b2_25 = fma(r12, b2_18, b2_24);
+        const V b2_26 = r11 * b2_7;
+        const V b2_27 = fma(r10, b2_5, b2_26);
+        const V b2_28 = fma(r12, b2_10, b2_27);
+        const V b2_29 = fma(T(-0.8660254037844386), b2_21, f[6]);
+        const V b2_30 = r01 * b2_7;
+        const V b2_31 = fma(r00, b2_5, b2_30);
+        const V b2_32 = fma(r02, b2_10, b2_31);
+        const V b2_33 = fma(-r00, b2_13, b2_22);
+        const V b2_34 = fma(-r01, b2_15, b2_33);
+        const V b2_35 = fma(r02, b2_18, -b2_34);
+        out[4] = b2_25;
+        out[5] = b2_28;
+        out[6] = b2_29;
+        out[7] = b2_32;
+        out[8] = b2_35;
+    }
+}
+
+/// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
+/// Turns the function, not the frame.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// scalars : 34 values, for `apply`.
+/// scalars must not overlap R.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+template <class T>
+void prepare(const T* R, T* scalars) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    const T d2_1 = r00 * r11;
+    const T d2_2 = fma(r01, r10, d2_1);
+    const T d2_3 = d2_2 + d2_2;
+    const T d2_0_0 = T(0.5) * d2_3;
+    const T d2_4 = r01 * r12;
+    const T d2_0_1 = fma(r02, r11, d2_4);
+    const T d2_5 = r02 * r12;
+    const T d2_6 = d2_5 + d2_5;
+    const T d2_0_2 = T(0.8660254037844386) * d2_6;
+    const T d2_7 = r00 * r12;
+    const T d2_0_3 = fma(r02, r10, d2_7);
+    const T d2_8 = r00 * r10;
+    const T d2_9 = fma(r01, r11, -d2_8);
+    const T d2_10 = d2_9 + d2_9;
+    const T d2_11 = T(0.5) * d2_10;
+    const T d2_12 = r11 * r20;
+    const T d2_13 = fma(r10, r21, d2_12);
+    const T d2_14 = d2_13 + d2_13;
+    const T d2_1_0 = T(0.5) * d2_14;
+    const T d2_15 = r12 * r21;
+    const T d2_1_1 = fma(r11, r22, d2_15);
+    const T d2_16 = r12 * r22;
+    const T d2_17 = d2_16 + d2_16;
+    const T d2_1_2 = T(0.8660254037844386) * d2_17;
+    const T d2_18 = r12 * r20;
+    const T d2_1_3 = fma(r10, r22, d2_18);
+    const T d2_19 = r10 * r20;
+    const T d2_20 = fma(r11, r21, -d2_19);
+    const T d2_21 = d2_20 + d2_20;
+    const T d2_22 = T(0.5) * d2_21;
+    const T d2_23 = r20 * r21;
+    const T d2_24 = d2_23 + d2_23;
+    const T d2_25 = r00 * r01;
+    const T d2_26 = d2_25 + d2_25;
+    const T d2_27 = r10 * r11;
+    const T d2_28 = d2_27 + d2_27;
+    const T d2_29 = d2_26 + d2_28;
+    const T d2_30 = T(0.28867513459481287) * d2_29;
+    const T d2_2_0 = fma(T(0.57735026918962573), d2_24, -d2_30);
+    const T d2_31 = r21 * r22;
+    const T d2_32 = r11 * r12;
+    const T d2_33 = fma(r01, r02, d2_32);
+    const T d2_34 = T(0.57735026918962573) * d2_33;
+    const T d2_2_1 = fma(T(1.1547005383792515), d2_31, -d2_34);
+    const T d2_35 = r12 * r12;
+    const T d2_36 = fma(r02, r02, d2_35);
+    const T d2_37 = T(0.5) * d2_36;
+    const T d2_2_2 = fma(r22, r22, -d2_37);
+    const T d2_38 = r20 * r22;
+    const T d2_39 = r10 * r12;
+    const T d2_40 = fma(r00, r02, d2_39);
+    const T d2_41 = T(0.57735026918962573) * d2_40;
+    const T d2_2_3 = fma(T(1.1547005383792515), d2_38, -d2_41);
+    const T d2_42 = r20 * r20;
+    const T d2_43 = fma(r21, r21, -d2_42);
+    const T d2_44 = r00 * r00;
+    const T d2_45 = fma(r01, r01, -d2_44);
+    const T d2_46 = r10 * r10;
+    const T d2_47 = fma(r11, r11, -d2_46);
+    const T d2_48 = d2_45 + d2_47;
+    const T d2_49 = T(0.28867513459481287) * d2_48;
+    const T d2_50 = fma(T(0.57735026918962573), d2_43, -d2_49);
+    const T d2_51 = r01 * r20;
+    const T d2_52 = fma(r00, r21, d2_51);
+    const T d2_53 = d2_52 + d2_52;
+    const T d2_3_0 = T(0.5) * d2_53;
+    const T d2_54 = r02 * r21;
+    const T d2_3_1 = fma(r01, r22, d2_54);
+    const T d2_55 = r02 * r22;
+    const T d2_56 = d2_55 + d2_55;
+    const T d2_3_2 = T(0.8660254037844386) * d2_56;
+    const T d2_57 = r02 * r20;
+    const T d2_3_3 = fma(r00, r22, d2_57);
+    const T d2_58 = r00 * r20;
+    const T d2_59 = fma(r01, r21, -d2_58);
+    const T d2_60 = d2_59 + d2_59;
+    const T d2_61 = T(0.5) * d2_60;
+    const T d2_62 = d2_26 - d2_28;
+    const T d2_4_0 = T(0.5) * d2_62;
+    const T d2_4_1 = fma(r01, r02, -d2_32);
+    const T d2_63 = fma(r02, r02, -d2_35);
+    const T d2_4_2 = T(0.8660254037844386) * d2_63;
+    const T d2_4_3 = fma(r00, r02, -d2_39);
+    const T d2_64 = d2_45 - d2_47;
+    const T d2_65 = T(0.5) * d2_64;
+    scalars[0] = r11;
+    scalars[1] = r10;
+    scalars[2] = r12;
+    scalars[3] = r21;
+    scalars[4] = r20;
+    scalars[5] = r22;
+    scalars[6] = r01;
+    scalars[7] = r00;
+    scalars[8] = r02;
+    scalars[9] = d2_0_1;
+    scalars[10] = d2_0_0;
+    scalars[11] = d2_0_2;
+    scalars[12] = d2_0_3;
+    scalars[13] = d2_11;
+    scalars[14] = d2_1_1;
+    scalars[15] = d2_1_0;
+    scalars[16] = d2_1_2;
+    scalars[17] = d2_1_3;
+    scalars[18] = d2_22;
+    scalars[19] = d2_2_1;
+    scalars[20] = d2_2_0;
+    scalars[21] = d2_2_2;
+    scalars[22] = d2_2_3;
+    scalars[23] = d2_50;
+    scalars[24] = d2_3_1;
+    scalars[25] = d2_3_0;
+    scalars[26] = d2_3_2;
+    scalars[27] = d2_3_3;
+    scalars[28] = d2_61;
+    scalars[29] = d2_4_1;
+    scalars[30] = d2_4_0;
+    scalars[31] = d2_4_2;
+    scalars[32] = d2_4_3;
+    scalars[33] = d2_65;
+}
+
+/// Rotates a vector by what `prepare` made of the rotation: the cheapest for many vectors.
+/// Bands are independent: a NaN stays in its band.
+/// scalars : 34 values, by `prepare`.
+/// f : 9 values, index l(l+1)+m.
+/// out : 9 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Error: at most (kApplyBound... + kApplyExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+template <class T, class V = T>
+void apply(const T* scalars, const V* f, V* out) {
+    const T r11 = scalars[0];
+    const T r10 = scalars[1];
+    const T r12 = scalars[2];
+    const T r21 = scalars[3];
+    const T r20 = scalars[4];
+    const T r22 = scalars[5];
+    const T r01 = scalars[6];
+    const T r00 = scalars[7];
+    const T r02 = scalars[8];
+    const T d2_0_1 = scalars[9];
+    const T d2_0_0 = scalars[10];
+    const T d2_0_2 = scalars[11];
+    const T d2_0_3 = scalars[12];
+    const T d2_1 = scalars[13];
+    const T d2_1_1 = scalars[14];
+    const T d2_1_0 = scalars[15];
+    const T d2_1_2 = scalars[16];
+    const T d2_1_3 = scalars[17];
+    const T d2_2 = scalars[18];
+    const T d2_2_1 = scalars[19];
+    const T d2_2_0 = scalars[20];
+    const T d2_2_2 = scalars[21];
+    const T d2_2_3 = scalars[22];
+    const T d2_3 = scalars[23];
+    const T d2_3_1 = scalars[24];
+    const T d2_3_0 = scalars[25];
+    const T d2_3_2 = scalars[26];
+    const T d2_3_3 = scalars[27];
+    const T d2_4 = scalars[28];
+    const T d2_4_1 = scalars[29];
+    const T d2_4_0 = scalars[30];
+    const T d2_4_2 = scalars[31];
+    const T d2_4_3 = scalars[32];
+    const T d2_5 = scalars[33];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const V b2_1 = d2_0_1 * f[5];
+    const V b2_2 = fma(d2_0_0, f[4], b2_1);
+    const V b2_3 = fma(d2_0_2, f[6], b2_2);
+    const V b2_4 = fma(d2_0_3, f[7], b2_3);
+    const V b2_5 = fma(-d2_1, f[8], b2_4);
+    const V b2_6 = d2_1_1 * f[5];
+    const V b2_7 = fma(d2_1_0, f[4], b2_6);
+    const V b2_8 = fma(d2_1_2, f[6], b2_7);
+    const V b2_9 = fma(d2_1_3, f[7], b2_8);
+    const V b2_10 = fma(-d2_2, f[8], b2_9);
+    const V b2_11 = d2_2_1 * f[5];
+    const V b2_12 = fma(d2_2_0, f[4], b2_11);
+    const V b2_13 = fma(d2_2_2, f[6], b2_12);
+    const V b2_14 = fma(d2_2_3, f[7], b2_13);
+    const V b2_15 = fma(-d2_3, f[8], b2_14);
+    const V b2_16 = d2_3_1 * f[5];
+    const V b2_17 = fma(d2_3_0, f[4], b2_16);
+    const V b2_18 = fma(d2_3_2, f[6], b2_17);
+    const V b2_19 = fma(d2_3_3, f[7], b2_18);
+    const V b2_20 = fma(-d2_4, f[8], b2_19);
+    const V b2_21 = d2_4_1 * f[5];
+    const V b2_22 = fma(d2_4_0, f[4], b2_21);
+    const V b2_23 = fma(d2_4_2, f[6], b2_22);
+    const V b2_24 = fma(d2_4_3, f[7], b2_23);
+    const V b2_25 = fma(-d2_5, f[8], b2_24);
+    out[4] = b2_5;
+    out[5] = b2_10;
+    out[6] = b2_15;
+    out[7] = b2_20;
+    out[8] = b2_25;
+}
+
+/// The most accurate exact rotation, mirrors included.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// f : 9 values, index l(l+1)+m.
+/// out : 9 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Error: at most (kRotateAccurateBound... + kRotateAccurateExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+template <class T, class V = T>
+void rotate_accurate(const T* R, const V* f, V* out) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const T d2_1 = r00 * r11;
+    const T d2_2 = fma(r01, r10, d2_1);
+    const T d2_3 = d2_2 + d2_2;
+    const T d2_0_0 = T(0.5) * d2_3;
+    const T d2_4 = r01 * r12;
+    const T d2_0_1 = fma(r02, r11, d2_4);
+    const T d2_5 = r02 * r12;
+    const T d2_6 = d2_5 + d2_5;
+    const T d2_0_2 = T(0.8660254037844386) * d2_6;
+    const T d2_7 = r00 * r12;
+    const T d2_0_3 = fma(r02, r10, d2_7);
+    const T d2_8 = r00 * r10;
+    const T d2_9 = fma(r01, r11, -d2_8);
+    const T d2_10 = d2_9 + d2_9;
+    const T d2_11 = T(0.5) * d2_10;
+    const T d2_12 = r11 * r20;
+    const T d2_13 = fma(r10, r21, d2_12);
+    const T d2_14 = d2_13 + d2_13;
+    const T d2_1_0 = T(0.5) * d2_14;
+    const T d2_15 = r12 * r21;
+    const T d2_1_1 = fma(r11, r22, d2_15);
+    const T d2_16 = r12 * r22;
+    const T d2_17 = d2_16 + d2_16;
+    const T d2_1_2 = T(0.8660254037844386) * d2_17;
+    const T d2_18 = r12 * r20;
+    const T d2_1_3 = fma(r10, r22, d2_18);
+    const T d2_19 = r10 * r20;
+    const T d2_20 = fma(r11, r21, -d2_19);
+    const T d2_21 = d2_20 + d2_20;
+    const T d2_22 = T(0.5) * d2_21;
+    const T d2_23 = r20 * r21;
+    const T d2_24 = d2_23 + d2_23;
+    const T d2_25 = r00 * r01;
+    const T d2_26 = d2_25 + d2_25;
+    const T d2_27 = r10 * r11;
+    const T d2_28 = d2_27 + d2_27;
+    const T d2_29 = d2_26 + d2_28;
+    const T d2_30 = T(0.28867513459481287) * d2_29;
+    const T d2_2_0 = fma(T(0.57735026918962573), d2_24, -d2_30);
+    const T d2_31 = r21 * r22;
+    const T d2_32 = r11 * r12;
+    const T d2_33 = fma(r01, r02, d2_32);
+    const T d2_34 = T(0.57735026918962573) * d2_33;
+    const T d2_2_1 = fma(T(1.1547005383792515), d2_31, -d2_34);
+    const T d2_35 = r12 * r12;
+    const T d2_36 = fma(r02, r02, d2_35);
+    const T d2_37 = T(0.5) * d2_36;
+    const T d2_2_2 = fma(r22, r22, -d2_37);
+    const T d2_38 = r20 * r22;
+    const T d2_39 = r10 * r12;
+    const T d2_40 = fma(r00, r02, d2_39);
+    const T d2_41 = T(0.57735026918962573) * d2_40;
+    const T d2_2_3 = fma(T(1.1547005383792515), d2_38, -d2_41);
+    const T d2_42 = r20 * r20;
+    const T d2_43 = fma(r21, r21, -d2_42);
+    const T d2_44 = r00 * r00;
+    const T d2_45 = fma(r01, r01, -d2_44);
+    const T d2_46 = r10 * r10;
+    const T d2_47 = fma(r11, r11, -d2_46);
+    const T d2_48 = d2_45 + d2_47;
+    const T d2_49 = T(0.28867513459481287) * d2_48;
+    const T d2_50 = fma(T(0.57735026918962573), d2_43, -d2_49);
+    const T d2_51 = r01 * r20;
+    const T d2_52 = fma(r00, r21, d2_51);
+    const T d2_53 = d2_52 + d2_52;
+    const T d2_3_0 = T(0.5) * d2_53;
+    const T d2_54 = r02 * r21;
+    const T d2_3_1 = fma(r01, r22, d2_54);
+    const T d2_55 = r02 * r22;
+    const T d2_56 = d2_55 + d2_55;
+    const T d2_3_2 = T(0.8660254037844386) * d2_56;
+    const T d2_57 = r02 * r20;
+    const T d2_3_3 = fma(r00, r22, d2_57);
+    const T d2_58 = r00 * r20;
+    const T d2_59 = fma(r01, r21, -d2_58);
+    const T d2_60 = d2_59 + d2_59;
+    const T d2_61 = T(0.5) * d2_60;
+    const T d2_62 = d2_26 - d2_28;
+    const T d2_4_0 = T(0.5) * d2_62;
+    const T d2_4_1 = fma(r01, r02, -d2_32);
+    const T d2_63 = fma(r02, r02, -d2_35);
+    const T d2_4_2 = T(0.8660254037844386) * d2_63;
+    const T d2_4_3 = fma(r00, r02, -d2_39);
+    const T d2_64 = d2_45 - d2_47;
+    const T d2_65 = T(0.5) * d2_64;
+    const V b2_1 = d2_0_1 * f[5];
+    const V b2_2 = fma(d2_0_0, f[4], b2_1);
+    const V b2_3 = fma(d2_0_2, f[6], b2_2);
+    const V b2_4 = fma(d2_0_3, f[7], b2_3);
+    const V b2_5 = fma(-d2_11, f[8], b2_4);
+    const V b2_6 = d2_1_1 * f[5];
+    const V b2_7 = fma(d2_1_0, f[4], b2_6);
+    const V b2_8 = fma(d2_1_2, f[6], b2_7);
+    const V b2_9 = fma(d2_1_3, f[7], b2_8);
+    const V b2_10 = fma(-d2_22, f[8], b2_9);
+    const V b2_11 = d2_2_1 * f[5];
+    const V b2_12 = fma(d2_2_0, f[4], b2_11);
+    const V b2_13 = fma(d2_2_2, f[6], b2_12);
+    const V b2_14 = fma(d2_2_3, f[7], b2_13);
+    const V b2_15 = fma(-d2_50, f[8], b2_14);
+    const V b2_16 = d2_3_1 * f[5];
+    const V b2_17 = fma(d2_3_0, f[4], b2_16);
+    const V b2_18 = fma(d2_3_2, f[6], b2_17);
+    const V b2_19 = fma(d2_3_3, f[7], b2_18);
+    const V b2_20 = fma(-d2_61, f[8], b2_19);
+    const V b2_21 = d2_4_1 * f[5];
+    const V b2_22 = fma(d2_4_0, f[4], b2_21);
+    const V b2_23 = fma(d2_4_2, f[6], b2_22);
+    const V b2_24 = fma(d2_4_3, f[7], b2_23);
+    const V b2_25 = fma(-d2_65, f[8], b2_24);
+    out[4] = b2_5;
+    out[5] = b2_10;
+    out[6] = b2_15;
+    out[7] = b2_20;
+    out[8] = b2_25;
+}
+
+/// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
+/// Turns the function, not the frame.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// dense : 35 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
+/// dense must not overlap R.
+/// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
+/// Cost: see the banner.
+/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+template <class T>
+void blocks(const T* R, T* dense) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    dense[0] = T(1.0);
+    dense[1] = r11;
+    dense[2] = r12;
+    dense[3] = r10;
+    dense[4] = r21;
+    dense[5] = r22;
+    dense[6] = r20;
+    dense[7] = r01;
+    dense[8] = r02;
+    dense[9] = r00;
+    const T d2_1 = r00 * r11;
+    const T d2_2 = fma(r01, r10, d2_1);
+    const T d2_3 = d2_2 + d2_2;
+    const T d2_0_0 = T(0.5) * d2_3;
+    const T d2_4 = r01 * r12;
+    const T d2_0_1 = fma(r02, r11, d2_4);
+    const T d2_5 = r02 * r12;
+    const T d2_6 = d2_5 + d2_5;
+    const T d2_0_2 = T(0.8660254037844386) * d2_6;
+    const T d2_7 = r00 * r12;
+    const T d2_0_3 = fma(r02, r10, d2_7);
+    const T d2_8 = r00 * r10;
+    const T d2_9 = fma(r01, r11, -d2_8);
+    const T d2_10 = d2_9 + d2_9;
+    const T d2_11 = r11 * r20;
+    const T d2_12 = fma(r10, r21, d2_11);
+    const T d2_13 = d2_12 + d2_12;
+    const T d2_1_0 = T(0.5) * d2_13;
+    const T d2_14 = r12 * r21;
+    const T d2_1_1 = fma(r11, r22, d2_14);
+    const T d2_15 = r12 * r22;
+    const T d2_16 = d2_15 + d2_15;
+    const T d2_1_2 = T(0.8660254037844386) * d2_16;
+    const T d2_17 = r12 * r20;
+    const T d2_1_3 = fma(r10, r22, d2_17);
+    const T d2_18 = r10 * r20;
+    const T d2_19 = fma(r11, r21, -d2_18);
+    const T d2_20 = d2_19 + d2_19;
+    const T d2_21 = r20 * r21;
+    const T d2_22 = d2_21 + d2_21;
+    const T d2_23 = r00 * r01;
+    const T d2_24 = d2_23 + d2_23;
+    const T d2_25 = r10 * r11;
+    const T d2_26 = d2_25 + d2_25;
+    const T d2_27 = d2_24 + d2_26;
+    const T d2_28 = T(0.28867513459481287) * d2_27;
+    const T d2_2_0 = fma(T(0.57735026918962573), d2_22, -d2_28);
+    const T d2_29 = r21 * r22;
+    const T d2_30 = r11 * r12;
+    const T d2_31 = fma(r01, r02, d2_30);
+    const T d2_32 = T(0.57735026918962573) * d2_31;
+    const T d2_2_1 = fma(T(1.1547005383792515), d2_29, -d2_32);
+    const T d2_33 = r12 * r12;
+    const T d2_34 = fma(r02, r02, d2_33);
+    const T d2_35 = T(0.5) * d2_34;
+    const T d2_2_2 = fma(r22, r22, -d2_35);
+    const T d2_36 = r20 * r22;
+    const T d2_37 = r10 * r12;
+    const T d2_38 = fma(r00, r02, d2_37);
+    const T d2_39 = T(0.57735026918962573) * d2_38;
+    const T d2_2_3 = fma(T(1.1547005383792515), d2_36, -d2_39);
+    const T d2_40 = r20 * r20;
+    const T d2_41 = fma(r21, r21, -d2_40);
+    const T d2_42 = r00 * r00;
+    const T d2_43 = fma(r01, r01, -d2_42);
+    const T d2_44 = r10 * r10;
+    const T d2_45 = fma(r11, r11, -d2_44);
+    const T d2_46 = d2_43 + d2_45;
+    const T d2_47 = T(0.28867513459481287) * d2_46;
+    const T d2_48 = r01 * r20;
+    const T d2_49 = fma(r00, r21, d2_48);
+    const T d2_50 = d2_49 + d2_49;
+    const T d2_3_0 = T(0.5) * d2_50;
+    const T d2_51 = r02 * r21;
+    const T d2_3_1 = fma(r01, r22, d2_51);
+    const T d2_52 = r02 * r22;
+    const T d2_53 = d2_52 + d2_52;
+    const T d2_3_2 = T(0.8660254037844386) * d2_53;
+    const T d2_54 = r02 * r20;
+    const T d2_3_3 = fma(r00, r22, d2_54);
+    const T d2_55 = r00 * r20;
+    const T d2_56 = fma(r01, r21, -d2_55);
+    const T d2_57 = d2_56 + d2_56;
+    const T d2_58 = d2_24 - d2_26;
+    const T d2_4_0 = T(0.5) * d2_58;
+    const T d2_4_1 = fma(r01, r02, -d2_30);
+    const T d2_59 = fma(r02, r02, -d2_33);
+    const T d2_4_2 = T(0.8660254037844386) * d2_59;
+    const T d2_4_3 = fma(r00, r02, -d2_37);
+    const T d2_60 = d2_43 - d2_45;
+    const T d2_61 = T(-0.5) * d2_10;
+    const T d2_62 = T(-0.5) * d2_20;
+    const T d2_63 = fma(T(-0.57735026918962573), d2_41, d2_47);
+    const T d2_64 = T(-0.5) * d2_57;
+    const T d2_65 = T(-0.5) * d2_60;
+    dense[10] = d2_0_0;
+    dense[11] = d2_0_1;
+    dense[12] = d2_0_2;
+    dense[13] = d2_0_3;
+    dense[14] = d2_61;
+    dense[15] = d2_1_0;
+    dense[16] = d2_1_1;
+    dense[17] = d2_1_2;
+    dense[18] = d2_1_3;
+    dense[19] = d2_62;
+    dense[20] = d2_2_0;
+    dense[21] = d2_2_1;
+    dense[22] = d2_2_2;
+    dense[23] = d2_2_3;
+    dense[24] = d2_63;
+    dense[25] = d2_3_0;
+    dense[26] = d2_3_1;
+    dense[27] = d2_3_2;
+    dense[28] = d2_3_3;
+    dense[29] = d2_64;
+    dense[30] = d2_4_0;
+    dense[31] = d2_4_1;
+    dense[32] = d2_4_2;
+    dense[33] = d2_4_3;
+    dense[34] = d2_65;
+}
 
 /// Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.
 /// f : 9 values, index l(l+1)+m.
 /// z : 9 values, band l at l*l, lobe d at l*l + d, d = 0 .. 2l in table order.
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 7 and the one after it.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
 template <class V, class T = typename scalar_of<V>::type>
 void factorize(const V* f, V* z) {
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
@@ -60,10 +780,10 @@ void factorize(const V* f, V* z) {
     const V b1_d1_1 = f[1] - f[3];
     const V b1_d1_2 = T(1.7724538509055161) * b1_d1_1;
     const V b1_d2_1 = f[1] - f[2];
-    const V t_1 = T(-1.7724538509055161) * b1_d2_1;
+    const V b1_d2_2 = T(-1.7724538509055161) * b1_d2_1;
     z[1] = b1_d0_2;
     z[2] = b1_d1_2;
-    z[3] = t_1;
+    z[3] = b1_d2_2;
     const V b2_d0_1 = f[4] + f[5];
     const V b2_d0_2 = T(1.3729368492956535) * b2_d0_1;
     const V b2_d1_1 = f[5] - f[7];
@@ -72,12 +792,12 @@ void factorize(const V* f, V* z) {
     const V b2_d2_2 = T(1.3729368492956535) * b2_d2_1;
     const V b2_d3_1 = T(0.91529123286376901) * f[8];
     const V b2_d3_2 = fma(T(1.5853309190424043), f[6], -b2_d3_1);
-    const V t_2 = T(-1.830582465727538) * f[8];
+    const V b2_d4_1 = T(-1.830582465727538) * f[8];
     z[4] = b2_d0_2;
     z[5] = b2_d1_2;
     z[6] = b2_d2_2;
     z[7] = b2_d3_2;
-    z[8] = t_2;
+    z[8] = b2_d4_1;
 }
 
 /// The signal that weighted lobes sum to: f = Y^T z, band by band; undoes factorize.
@@ -85,19 +805,19 @@ void factorize(const V* f, V* z) {
 /// f : 9 values, index l(l+1)+m.
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., section 4.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
 template <class V, class T = typename scalar_of<V>::type>
 void expand(const V* z, V* f) {
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
     const V b1_m0_1 = z[1] + z[2];
-    const V b1_m0_2 = b1_m0_1 - z[3];
-    const V b1_m0_3 = T(0.28209479177387814) * b1_m0_2;
+    const V b1_m0_2 = z[3] - b1_m0_1;
     const V b1_m1_1 = z[3] + b1_m0_1;
     const V b1_m1_2 = T(0.28209479177387814) * b1_m1_1;
     const V b1_m2_1 = z[1] - z[2];
-    const V b1_m2_2 = b1_m2_1 - z[3];
-    const V b1_m2_3 = T(0.28209479177387814) * b1_m2_2;
+    const V b1_m2_2 = z[3] - b1_m2_1;
+    const V b1_m0_3 = T(-0.28209479177387814) * b1_m0_2;
+    const V b1_m2_3 = T(-0.28209479177387814) * b1_m2_2;
     f[1] = b1_m0_3;
     f[2] = b1_m1_2;
     f[3] = b1_m2_3;
@@ -105,18 +825,18 @@ void expand(const V* z, V* f) {
     const V b2_m0_2 = z[6] + b2_m0_1;
     const V b2_m0_3 = T(0.36418281019735971) * b2_m0_2;
     const V b2_m1_1 = z[4] + z[5];
-    const V b2_m1_2 = b2_m1_1 - z[6];
-    const V b2_m1_3 = T(0.36418281019735971) * b2_m1_2;
+    const V b2_m1_2 = z[6] - b2_m1_1;
     const V b2_m2_1 = T(0.31539156525251999) * z[8];
     const V b2_m2_2 = fma(T(0.63078313050503998), z[7], -b2_m2_1);
-    const V b2_m3_1 = b2_m0_1 - z[6];
-    const V b2_m3_2 = T(0.36418281019735971) * b2_m3_1;
-    const V t_1 = T(-0.54627421529603959) * z[8];
+    const V b2_m3_1 = z[6] - b2_m0_1;
+    const V b2_m1_3 = T(-0.36418281019735971) * b2_m1_2;
+    const V b2_m3_2 = T(-0.36418281019735971) * b2_m3_1;
+    const V b2_m4_1 = T(-0.54627421529603959) * z[8];
     f[4] = b2_m0_3;
     f[5] = b2_m1_3;
     f[6] = b2_m2_2;
     f[7] = b2_m3_2;
-    f[8] = t_1;
+    f[8] = b2_m4_1;
 }
 
 /// The rotated signal from samples of its bands: element l*l + d of samples is band l of the
@@ -125,7 +845,7 @@ void expand(const V* z, V* f) {
 /// out : 9 values, index l(l+1)+m.
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 11.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
 template <class V, class T = typename scalar_of<V>::type>
 void resample(const V* samples, V* out) {
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
@@ -146,21 +866,21 @@ void resample(const V* samples, V* out) {
     const V b2_m2_1 = T(1.5853309190424043) * samples[7];
     const V b2_m3_1 = samples[5] + samples[6];
     const V b2_m4_1 = T(1.830582465727538) * samples[8];
-    const V t_1 = T(-1.3729368492956535) * b2_m3_1;
-    const V t_2 = fma(T(-0.91529123286376901), samples[7], -b2_m4_1);
+    const V b2_m3_2 = T(-1.3729368492956535) * b2_m3_1;
+    const V b2_m4_2 = fma(T(-0.91529123286376901), samples[7], -b2_m4_1);
     out[4] = b2_m0_2;
     out[5] = b2_m1_2;
     out[6] = b2_m2_1;
-    out[7] = t_1;
-    out[8] = t_2;
+    out[7] = b2_m3_2;
+    out[8] = b2_m4_2;
 }
 
 /// Turns the lobe directions of the table: R times each.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
 /// directions : 15 values, unit vectors x, y, z, in table order.
-/// directions may be R; they must not overlap in part.
+/// directions must not overlap R.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 9.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
 void lobes(const T* R, T* directions) {
     const T r00 = R[0];
@@ -185,26 +905,26 @@ void lobes(const T* R, T* directions) {
     directions[1] = y_d0;
     directions[2] = z_d0;
     const T d1_1 = r00 - r01;
-    const T d1_2 = d1_1 - r02;
+    const T d1_2 = r02 - d1_1;
+    const T x_d1 = T(0.57735026918962573) * d1_2;
     const T d1_3 = r10 - r11;
-    const T d1_4 = d1_3 - r12;
+    const T d1_4 = r12 - d1_3;
+    const T y_d1 = T(0.57735026918962573) * d1_4;
     const T d1_5 = r20 - r21;
-    const T d1_6 = d1_5 - r22;
-    const T t_1 = T(-0.57735026918962573) * d1_2;
-    const T t_2 = T(-0.57735026918962573) * d1_4;
-    const T t_3 = T(-0.57735026918962573) * d1_6;
-    directions[3] = t_1;
-    directions[4] = t_2;
-    directions[5] = t_3;
-    const T d2_1 = d0_1 - r02;
-    const T d2_2 = d0_3 - r12;
-    const T d2_3 = d0_5 - r22;
-    const T t_4 = T(-0.57735026918962573) * d2_1;
-    const T t_5 = T(-0.57735026918962573) * d2_2;
-    const T t_6 = T(-0.57735026918962573) * d2_3;
-    directions[6] = t_4;
-    directions[7] = t_5;
-    directions[8] = t_6;
+    const T d1_6 = r22 - d1_5;
+    const T z_d1 = T(0.57735026918962573) * d1_6;
+    directions[3] = x_d1;
+    directions[4] = y_d1;
+    directions[5] = z_d1;
+    const T d2_1 = r02 - d0_1;
+    const T x_d2 = T(0.57735026918962573) * d2_1;
+    const T d2_2 = r12 - d0_3;
+    const T y_d2 = T(0.57735026918962573) * d2_2;
+    const T d2_3 = r22 - d0_5;
+    const T z_d2 = T(0.57735026918962573) * d2_3;
+    directions[6] = x_d2;
+    directions[7] = y_d2;
+    directions[8] = z_d2;
     directions[9] = r02;
     directions[10] = r12;
     directions[11] = r22;
@@ -219,9 +939,9 @@ void lobes(const T* R, T* directions) {
 /// f : 9 values, index l(l+1)+m.
 /// out : 9 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
-/// Error: at most the banner's bound and 2/2 |R R^T - I|_F, times |f|.
+/// Error: at most (kRotateZhfBound... + kRotateZhfExcess |R R^T - I|_F) |f|.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 10.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 template <class T, class V = T>
 void rotate_zhf(const T* R, const V* f, V* out) {
     const T r00 = R[0];
@@ -259,14 +979,14 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b2_d0_7 = z_d0 * b2_d0;
     const V b2_d1_1 = f[5] - f[7];
     const V b2_d1 = T(0.5) * b2_d1_1;
-    const T b2_d1_2 = r01 - r00;
-    const T x_d1 = r02 + b2_d1_2;
+    const T b2_d1_2 = r00 - r01;
+    const T x_d1 = r02 - b2_d1_2;
     const V b2_d1_3 = x_d1 * b2_d1;
-    const T b2_d1_4 = r11 - r10;
-    const T y_d1 = r12 + b2_d1_4;
+    const T b2_d1_4 = r10 - r11;
+    const T y_d1 = r12 - b2_d1_4;
     const V b2_d1_5 = y_d1 * b2_d1;
-    const T b2_d1_6 = r21 - r20;
-    const T z_d1 = r22 + b2_d1_6;
+    const T b2_d1_6 = r20 - r21;
+    const T z_d1 = r22 - b2_d1_6;
     const V b2_d1_7 = z_d1 * b2_d1;
     const V b2_d1_8 = x_d1 * b2_d1_3;
     const V b2_d1_9 = fma(x_d0, b2_d0_3, b2_d1_8);
@@ -305,44 +1025,38 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b2_d3_8 = fma(r12, b2_d3_3, b2_d2_8);
     const V b2_d3_9 = fma(r22, b2_d3_3, b2_d2_9);
     const V b2_d3_10 = fma(r22, b2_d3_4, b2_d2_10);
-    const V b2_d4_1 = b2_d3_1 - f[8];
-    const V b2_d4 = fma(T(-0.57735026918962573), f[6], b2_d4_1);
-    const V b2_d4_2 = r01 * b2_d4;
-    const V b2_d4_3 = r11 * b2_d4;
-    const V b2_d4_4 = r21 * b2_d4;
-    const V b2_d4_5 = fma(r01, b2_d4_2, b2_d3_5);
-    const V b2_d4_6 = fma(r11, b2_d4_2, b2_d3_6);
-    const V b2_d4_7 = fma(r21, b2_d4_2, b2_d3_7);
-    const V b2_d4_8 = fma(r11, b2_d4_3, b2_d3_8);
-    const V b2_d4_9 = fma(r21, b2_d4_3, b2_d3_9);
-    const V b2_d4_10 = fma(r21, b2_d4_4, b2_d3_10);
+    const V b2_d4_1 = f[8] - b2_d3_1;
+    const V b2_d4_2 = fma(T(0.57735026918962573), f[6], b2_d4_1);
+    const V b2_d4_3 = r01 * b2_d4_2;
+    const V b2_d4_4 = r11 * b2_d4_2;
+    const V b2_d4_5 = r21 * b2_d4_2;
+    const V b2_d4_6 = fma(-r01, b2_d4_3, b2_d3_5);
+    const V b2_d4_7 = fma(-r11, b2_d4_3, b2_d3_6);
+    const V b2_d4_8 = fma(-r21, b2_d4_3, b2_d3_7);
+    const V b2_d4_9 = fma(-r11, b2_d4_4, b2_d3_8);
+    const V b2_d4_10 = fma(-r21, b2_d4_4, b2_d3_9);
+    const V b2_d4_11 = fma(-r21, b2_d4_5, b2_d3_10);
     const V b2_d5_1 = f[8] + b2_d3_1;
-    const V b2_d5 = fma(T(-0.57735026918962573), f[6], b2_d5_1);
-    const V b2_d5_2 = r00 * b2_d5;
-    const V b2_d5_3 = r10 * b2_d5;
-    const V b2_d5_4 = r20 * b2_d5;
-    const V b2_d5_5 = fma(r00, b2_d5_2, b2_d4_5);
-    const V b2_d5_6 = fma(r10, b2_d5_2, b2_d4_6);
-    const V b2_d5_7 = fma(r20, b2_d5_2, b2_d4_7);
-    const V b2_d5_8 = fma(r10, b2_d5_3, b2_d4_8);
-    const V b2_d5_9 = fma(r20, b2_d5_3, b2_d4_9);
-    const V b2_d5_10 = fma(r20, b2_d5_4, b2_d4_10);
-    const V b2_1 = b2_d5_5 + b2_d5_8;
-    const V b2_2 = fma(T(-0.5), b2_1, b2_d5_10);
+    const V b2_d5_2 = fma(T(0.57735026918962573), f[6], -b2_d5_1);
+    const V b2_d5_3 = r00 * b2_d5_2;
+    const V b2_d5_4 = r10 * b2_d5_2;
+    const V b2_d5_5 = r20 * b2_d5_2;
+    const V b2_d5_6 = fma(-r00, b2_d5_3, b2_d4_6);
+    const V b2_d5_7 = fma(-r10, b2_d5_3, b2_d4_7);
+    const V b2_d5_8 = fma(-r20, b2_d5_3, b2_d4_8);
+    const V b2_d5_9 = fma(-r10, b2_d5_4, b2_d4_9);
+    const V b2_d5_10 = fma(-r20, b2_d5_4, b2_d4_10);
+    const V b2_d5_11 = fma(-r20, b2_d5_5, b2_d4_11);
+    const V b2_1 = b2_d5_6 + b2_d5_9;
+    const V b2_2 = fma(T(-0.5), b2_1, b2_d5_11);
     const V b2_3 = T(0.57735026918962573) * b2_2;
-    const V b2_4 = b2_d5_5 - b2_d5_8;
+    const V b2_4 = b2_d5_6 - b2_d5_9;
     const V b2_5 = T(0.5) * b2_4;
-    out[4] = b2_d5_6;
-    out[5] = b2_d5_9;
+    out[4] = b2_d5_7;
+    out[5] = b2_d5_10;
     out[6] = b2_3;
-    out[7] = b2_d5_7;
+    out[7] = b2_d5_8;
     out[8] = b2_5;
-}
-
-/// The cheapest exact rotation of one vector that this order has: rotate_zhf.
-template <class T, class V = T>
-void rotate(const T* R, const V* f, V* out) {
-    rotate_zhf(R, f, out);
 }
 
 }  // namespace zonal::order3

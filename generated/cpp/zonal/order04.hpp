@@ -2,7 +2,19 @@
 // command : zonal-gen emit --order 4 --language cpp --out generated/cpp
 // table   : generator/tables/order04.json  sha256:96aa99a51d83ab96
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : factorize 12 mul 6 add 12 fma 0 other;
+// cost    : rotate_channels 48 mul 4 add 66 fma 3 other;
+//             per extra vector 31 mul 0 add 50 fma 0 other
+//           rotate 40 mul 5 add 70 fma 3 other;
+//             per extra vector 34 mul 0 add 54 fma 0 other
+//           prepare 17 mul 4 add 16 fma 3 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           apply 31 mul 0 add 50 fma 0 other;
+//             per extra vector 31 mul 0 add 50 fma 0 other
+//           rotate_accurate 173 mul 34 add 204 fma 0 other;
+//             per extra vector 15 mul 0 add 68 fma 0 other
+//           blocks 158 mul 34 add 136 fma 0 other;
+//             per extra vector 0 mul 0 add 0 fma 0 other
+//           factorize 12 mul 6 add 12 fma 0 other;
 //             per extra vector 12 mul 6 add 12 fma 0 other
 //           expand 16 mul 20 add 5 fma 0 other;
 //             per extra vector 16 mul 20 add 5 fma 0 other
@@ -12,9 +24,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 100 mul 28 add 165 fma 0 other;
 //             per extra vector 50 mul 3 add 80 fma 0 other
-//           rotate: rotate_zhf
-// bound   : rotate_zhf relative error 1.8e-06 (float), 4.5e-15 (double), for det R = +1 or -1
-// source  : Nowrouzezahrai, Simari, Fiume 2012, eqs. 7 to 11
+// bound   : rotate_channels none published: see generator/tables/README.md
+//           rotate none published: see generator/tables/README.md
+//           apply none published: see generator/tables/README.md
+//           rotate_accurate none published: see generator/tables/README.md
+//           blocks none published: see generator/tables/README.md
+//           rotate_zhf none published: see generator/tables/README.md
+// source  : low bands as tensors, contracted with the rows of R
+//           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
+//           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it
+//           Nowrouzezahrai, Simari, Fiume 2012, section 4
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 11
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 9
+//           Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 #pragma once
 
 #include <type_traits>
@@ -23,13 +46,26 @@ namespace zonal::order4 {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
+// Always inlined: files compiled for different targets must not share a copy.
 #if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-inline float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-inline double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+[[gnu::always_inline]] inline float fma(float a, float b, float c) {
+    return __builtin_fmaf(a, b, c);
+}
+[[gnu::always_inline]] inline double fma(double a, double b, double c) {
+    return __builtin_fma(a, b, c);
+}
 #else
-inline float fma(float a, float b, float c) { return a * b + c; }
-inline double fma(double a, double b, double c) { return a * b + c; }
+[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
+[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
 #endif
+[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
+[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
+[[gnu::always_inline]] inline float copysign(float size, float sign) {
+    return __builtin_copysignf(size, sign);
+}
+[[gnu::always_inline]] inline double copysign(double size, double sign) {
+    return __builtin_copysign(size, sign);
+}
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -41,16 +77,1479 @@ struct scalar_of<V, std::void_t<typename V::value_type>> {
     using type = typename V::value_type;
 };
 
-/// Largest relative error of rotate_zhf, for det R = +1 or -1.
-inline constexpr double kRotateZhfBoundFloat = 1.8e-06;
-inline constexpr double kRotateZhfBoundDouble = 4.5e-15;
+/// 1 where the lobe kernels are here, else 0.
+inline constexpr int kHasLobes = 1;
+
+/// Values that `prepare` makes.
+inline constexpr int kScalars = 33;
+
+/// The cheapest exact rotation of three vectors at once.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// f : 16 values, index l(l+1)+m.
+/// out : 16 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
+/// odd bands.
+/// Error: at most (kRotateChannelsBound... + kRotateChannelsExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
+template <class T, class V = T>
+void rotate_channels(const T* R, const V* f, V* out) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const T euler_1 = copysign(T(1.0000000000000001e-18), r02);
+    const T x = r02 + euler_1;
+    const T euler_2 = r12 * r12;
+    const T euler_3 = fma(x, x, euler_2);
+    const T b_s1 = sqrt(euler_3);
+    const T a_c1 = x / b_s1;
+    const T a_s1 = r12 / b_s1;
+    const T euler_4 = r10 * a_c1;
+    const T euler_5 = fma(r00, a_s1, -euler_4);
+    const T euler_6 = r11 * a_c1;
+    const T euler_7 = fma(r01, a_s1, -euler_6);
+    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
+    const T euler_9 = fma(-euler_5, euler_5, euler_8);
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(euler_5, euler_10, euler_5);
+    const T euler_12 = fma(euler_7, euler_10, euler_7);
+    const V b2_g_1 = euler_12 * f[7];
+    const V b2_g_2 = fma(euler_11, f[5], -b2_g_1);
+    const V b2_g_3 = euler_11 * f[7];
+    const V b2_g_4 = fma(euler_12, f[5], b2_g_3);
+    const T g_1 = euler_12 + euler_12;
+    const T g_s2 = euler_11 * g_1;
+    const T g_c2 = fma(euler_12, g_1, T(-1.0));
+    const V b2_g_5 = g_c2 * f[8];
+    const V b2_g_6 = fma(g_s2, f[4], -b2_g_5);
+    const V b2_g_7 = g_s2 * f[8];
+    const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
+    const T b2_e_scalar_1 = T(1.2247448713915889) * b_s1;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * b_s1;
+    const T b2_e_scalar_3 = T(1.4142135623730951) * r22;
+    const V b2_e_1 = b2_e_scalar_2 * b2_g_6;
+    const V b2_e_2 = fma(b2_e_scalar_1, f[6], b2_e_1);
+    const V b2_e_3 = fma(b2_e_scalar_3, b2_g_2, b2_e_2);
+    const V b2_e_4 = fma(-b2_e_scalar_1, b2_e_3, f[6]);
+    const V b2_e_5 = fma(-b2_e_scalar_2, b2_e_3, b2_g_6);
+    const V b2_e_6 = fma(-b2_e_scalar_3, b2_e_3, b2_g_2);
+    const V b2_o_1 = r22 * b2_g_8;
+    const V b2_o_2 = fma(b_s1, b2_g_4, -b2_o_1);
+    const V b2_o_3 = b_s1 * b2_g_8;
+    const V b2_o_4 = fma(r22, b2_g_4, b2_o_3);
+    const V b2_a_1 = a_c1 * b2_e_6;
+    const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
+    const V b2_a_3 = a_s1 * b2_e_6;
+    const T a_2c1 = a_c1 + a_c1;
+    const T a_s2 = a_s1 * a_2c1;
+    const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+    const V b2_a_4 = a_c2 * b2_e_5;
+    const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
+    const V b2_a_6 = a_s2 * b2_e_5;
+    const V b2_a_7 = fma(-a_c2, b2_o_2, -b2_a_6);
+    const V b2_a_8 = fma(-a_c1, b2_o_4, -b2_a_3);
+    out[4] = b2_a_7;
+    out[5] = b2_a_8;
+    out[6] = b2_e_4;
+    out[7] = b2_a_2;
+    out[8] = b2_a_5;
+    const V b3_g_1 = euler_12 * f[13];
+    const V b3_g_2 = fma(euler_11, f[11], -b3_g_1);
+    const V b3_g_3 = euler_11 * f[13];
+    const V b3_g_4 = fma(euler_12, f[11], b3_g_3);
+    const V b3_g_5 = g_c2 * f[14];
+    const V b3_g_6 = fma(g_s2, f[10], -b3_g_5);
+    const V b3_g_7 = g_s2 * f[14];
+    const V b3_g_8 = fma(g_c2, f[10], b3_g_7);
+    const T g_c3 = fma(-g_1, g_c2, euler_12);
+    const T g_s3 = fma(-g_1, g_s2, euler_11);
+    const V b3_g_9 = g_c3 * f[15];
+    const V b3_g_10 = fma(g_s3, f[9], -b3_g_9);
+    const V b3_g_11 = g_s3 * f[15];
+    const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
+    const T b3_e_scalar_1 = T(1.1180339887498949) * b_s1;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * b_s1;
+    const V b3_e_1 = b3_e_scalar_2 * b3_g_12;
+    const V b3_e_2 = fma(b3_e_scalar_1, b3_g_4, b3_e_1);
+    const V b3_e_3 = fma(-b2_e_scalar_3, b3_g_8, b3_e_2);
+    const V b3_e_4 = fma(-b3_e_scalar_1, b3_e_3, b3_g_4);
+    const V b3_e_5 = fma(-b3_e_scalar_2, b3_e_3, b3_g_12);
+    const V b3_e_6 = fma(b2_e_scalar_3, b3_e_3, b3_g_8);
+    const V b3_o_1 = fma(T(-0.25819888974716115), b3_g_2, b3_g_10);
+    const V b3_o_2 = fma(T(0.25819888974716115), b3_g_10, b3_g_2);
+    const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
+    const V b3_o_4 = fma(T(0.7745966692414834), b3_g_6, f[12]);
+    const T b3_o_scalar_1 = T(0.9375) * r22;
+    const T b3_o_scalar_2 = T(0.76546554461974314) * b_s1;
+    const T b3_o_scalar_3 = T(0.625) * r22;
+    const V b3_o_5 = b3_o_scalar_1 * b3_o_1;
+    const V b3_o_6 = fma(b3_o_scalar_2, b3_o_3, b3_o_5);
+    const V b3_o_7 = b3_o_scalar_2 * b3_o_1;
+    const V b3_o_8 = fma(b3_o_scalar_3, b3_o_3, -b3_o_7);
+    const T b_1 = fma(-r22, r22, euler_3);
+    const T b_2 = b_1 + b_1;
+    const T b_3 = fma(r22, b_2, r22);
+    const T b_s3 = fma(-b_s1, b_2, b_s1);
+    const T b3_o_scalar_4 = T(0.9375) * b_3;
+    const T b3_o_scalar_5 = T(0.76546554461974314) * b_s3;
+    const T b3_o_scalar_6 = T(0.625) * b_3;
+    const V b3_o_9 = b3_o_scalar_4 * b3_o_2;
+    const V b3_o_10 = fma(b3_o_scalar_5, b3_o_4, -b3_o_9);
+    const V b3_o_11 = b3_o_scalar_5 * b3_o_2;
+    const V b3_o_12 = fma(b3_o_scalar_6, b3_o_4, b3_o_11);
+    const V b3_o_13 = fma(T(-0.25819888974716115), b3_o_6, b3_o_10);
+    const V b3_o_14 = fma(T(0.25819888974716115), b3_o_10, b3_o_6);
+    const V b3_o_15 = fma(T(-0.7745966692414834), b3_o_12, b3_o_8);
+    const V b3_a_1 = a_c1 * b3_o_13;
+    const V b3_a_2 = fma(a_s1, b3_e_4, b3_a_1);
+    const V b3_a_3 = a_s1 * b3_o_13;
+    const V b3_a_4 = a_c2 * b3_o_15;
+    const V b3_a_5 = fma(a_s2, b3_e_6, -b3_a_4);
+    const V b3_a_6 = a_s2 * b3_o_15;
+    const T a_1 = fma(-a_2c1, a_c2, a_c1);
+    const T a_2 = fma(-a_2c1, a_s2, a_s1);
+    const V b3_a_7 = a_1 * b3_o_14;
+    const V b3_a_8 = fma(a_2, b3_e_5, b3_a_7);
+    const V b3_a_9 = a_2 * b3_o_14;
+    const V b3_a_10 = fma(-a_1, b3_e_5, b3_a_9);
+    const V b3_a_11 = fma(-a_c2, b3_e_6, -b3_a_6);
+    const V b3_a_12 = fma(-a_c1, b3_e_4, b3_a_3);
+    const V b3_o_16 = fma(T(-0.7745966692414834), b3_o_8, -b3_o_12);
+    out[9] = b3_a_10;
+    out[10] = b3_a_11;
+    out[11] = b3_a_12;
+    out[12] = b3_o_16;
+    out[13] = b3_a_2;
+    out[14] = b3_a_5;
+    out[15] = b3_a_8;
+}
+
+/// The cheapest exact rotation of one vector.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// f : 16 values, index l(l+1)+m.
+/// out : 16 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
+/// odd bands.
+/// Where V is not T, a value of several channels, this is rotate_channels.
+/// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
+template <class T, class V = T>
+void rotate(const T* R, const V* f, V* out) {
+    if constexpr (!std::is_same_v<T, V>) {
+        rotate_channels(R, f, out);
+    } else {
+        const T r00 = R[0];
+        const T r01 = R[1];
+        const T r02 = R[2];
+        const T r10 = R[3];
+        const T r11 = R[4];
+        const T r12 = R[5];
+        const T r20 = R[6];
+        const T r21 = R[7];
+        const T r22 = R[8];
+        out[0] = f[0];
+        const V b1_1 = r11 * f[1];
+        const V b1_2 = fma(r10, f[3], b1_1);
+        const V b1_3 = fma(r12, f[2], b1_2);
+        const V b1_4 = r21 * f[1];
+        const V b1_5 = fma(r20, f[3], b1_4);
+        const V b1_6 = fma(r22, f[2], b1_5);
+        const V b1_7 = r01 * f[1];
+        const V b1_8 = fma(r00, f[3], b1_7);
+        const V b1_9 = fma(r02, f[2], b1_8);
+        out[1] = b1_3;
+        out[2] = b1_6;
+        out[3] = b1_9;
+        const T euler_1 = copysign(T(1.0000000000000001e-18), r02);
+        const T x = r02 + euler_1;
+        const T euler_2 = r12 * r12;
+        const T euler_3 = fma(x, x, euler_2);
+        const T b_s1 = sqrt(euler_3);
+        const T a_c1 = x / b_s1;
+        const T a_s1 = r12 / b_s1;
+        const T euler_4 = r10 * a_c1;
+        const T euler_5 = fma(r00, a_s1, -euler_4);
+        const T euler_6 = r11 * a_c1;
+        const T euler_7 = fma(r01, a_s1, -euler_6);
+        const T euler_8 = fma(-euler_7, euler_7, T(1.0));
+        const T euler_9 = fma(-euler_5, euler_5, euler_8);
+        const T euler_10 = T(0.5) * euler_9;
+        const T euler_11 = fma(euler_5, euler_10, euler_5);
+        const T euler_12 = fma(euler_7, euler_10, euler_7);
+        const V b2_g_1 = euler_12 * f[7];
+        const V b2_g_2 = fma(euler_11, f[5], -b2_g_1);
+        const V b2_g_3 = euler_11 * f[7];
+        const V b2_g_4 = fma(euler_12, f[5], b2_g_3);
+        const T g_1 = euler_12 + euler_12;
+        const T g_s2 = euler_11 * g_1;
+        const T g_c2 = fma(euler_12, g_1, T(-1.0));
+        const V b2_g_5 = g_c2 * f[8];
+        const V b2_g_6 = fma(g_s2, f[4], -b2_g_5);
+        const V b2_g_7 = g_s2 * f[8];
+        const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
+        const T b_2c1 = r22 + r22;
+        const V b2_e_1 = fma(T(1.7320508075688772), f[6], b2_g_6);
+        const V b2_e_2 = b_s1 * b2_e_1;
+        const V b2_e_3 = fma(b_2c1, b2_g_2, b2_e_2);
+        const V b2_e_4 = b_s1 * b2_e_3;
+        const V b2_e_5 = fma(T(-0.8660254037844386), b2_e_4, f[6]);
+        const V b2_e_6 = fma(T(-0.5), b2_e_4, b2_g_6);
+        const V b2_e_7 = fma(-r22, b2_e_3, b2_g_2);
+        const V b2_o_1 = r22 * b2_g_8;
+        const V b2_o_2 = fma(b_s1, b2_g_4, -b2_o_1);
+        const V b2_o_3 = b_s1 * b2_g_8;
+        const V b2_o_4 = fma(r22, b2_g_4, b2_o_3);
+        const V b2_a_1 = a_c1 * b2_e_7;
+        const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
+        const V b2_a_3 = a_s1 * b2_e_7;
+        const T a_2c1 = a_c1 + a_c1;
+        const T a_s2 = a_s1 * a_2c1;
+        const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+        const V b2_a_4 = a_c2 * b2_e_6;
+        const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
+        const V b2_a_6 = a_s2 * b2_e_6;
+        const V b2_a_7 = fma(-a_c2, b2_o_2, -b2_a_6);
+        const V b2_a_8 = fma(-a_c1, b2_o_4, -b2_a_3);
+        out[4] = b2_a_7;
+        out[5] = b2_a_8;
+        out[6] = b2_e_5;
+        out[7] = b2_a_2;
+        out[8] = b2_a_5;
+        const V b3_g_1 = euler_12 * f[13];
+        const V b3_g_2 = fma(euler_11, f[11], -b3_g_1);
+        const V b3_g_3 = euler_11 * f[13];
+        const V b3_g_4 = fma(euler_12, f[11], b3_g_3);
+        const V b3_g_5 = g_c2 * f[14];
+        const V b3_g_6 = fma(g_s2, f[10], -b3_g_5);
+        const V b3_g_7 = g_s2 * f[14];
+        const V b3_g_8 = fma(g_c2, f[10], b3_g_7);
+        const T g_c3 = fma(-g_1, g_c2, euler_12);
+        const T g_s3 = fma(-g_1, g_s2, euler_11);
+        const V b3_g_9 = g_c3 * f[15];
+        const V b3_g_10 = fma(g_s3, f[9], -b3_g_9);
+        const V b3_g_11 = g_s3 * f[15];
+        const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
+        const V b3_e_1 = T(1.2247448713915889) * b3_g_12;
+        const V b3_e_2 = fma(T(1.5811388300841898), b3_g_4, b3_e_1);
+        const V b3_e_3 = b_s1 * b3_e_2;
+        const V b3_e_4 = fma(b_2c1, b3_g_8, -b3_e_3);
+        const V b3_e_5 = b_s1 * b3_e_4;
+        const V b3_e_6 = fma(T(0.79056941504209488), b3_e_5, b3_g_4);
+        const V b3_e_7 = fma(T(0.61237243569579447), b3_e_5, b3_g_12);
+        const V b3_e_8 = fma(-r22, b3_e_4, b3_g_8);
+        const V b3_o_1 = fma(T(-0.12701665379258312), b3_g_2, b3_g_10);
+        const V b3_o_2 = fma(T(0.25), b3_o_1, b3_g_2);
+        const V b3_o_3 = fma(T(-0.12701665379258312), b3_o_2, b3_o_1);
+        const V b3_o_4 = fma(T(-0.34199871311964641), f[12], b3_g_6);
+        const V b3_o_5 = fma(T(0.61237243569579447), b3_o_4, f[12]);
+        const V b3_o_6 = fma(T(-0.34199871311964641), b3_o_5, b3_o_4);
+        const V b3_o_7 = r22 * b3_o_3;
+        const V b3_o_8 = fma(b_s1, b3_o_6, b3_o_7);
+        const V b3_o_9 = b_s1 * b3_o_3;
+        const V b3_o_10 = fma(r22, b3_o_6, -b3_o_9);
+        const T b_1 = fma(-r22, r22, euler_3);
+        const T b_2 = b_1 + b_1;
+        const T b_3 = fma(r22, b_2, r22);
+        const T b_s3 = fma(-b_s1, b_2, b_s1);
+        const V b3_o_11 = b_3 * b3_o_2;
+        const V b3_o_12 = fma(b_s3, b3_o_5, -b3_o_11);
+        const V b3_o_13 = b_s3 * b3_o_2;
+        const V b3_o_14 = fma(b_3, b3_o_5, b3_o_13);
+        const V b3_o_15 = fma(T(0.12701665379258312), b3_o_12, b3_o_8);
+        const V b3_o_16 = fma(T(-0.25), b3_o_15, b3_o_12);
+        const V b3_o_17 = fma(T(0.12701665379258312), b3_o_16, b3_o_15);
+        const V b3_o_18 = fma(T(-0.34199871311964641), b3_o_14, b3_o_10);
+        const V b3_o_19 = fma(T(0.61237243569579447), b3_o_18, b3_o_14);
+        const V b3_o_20 = -b3_o_19;
+        const V b3_o_21 = fma(T(-0.34199871311964641), b3_o_19, b3_o_18);
+        const V b3_a_1 = a_c1 * b3_o_16;
+        const V b3_a_2 = fma(a_s1, b3_e_6, b3_a_1);
+        const V b3_a_3 = a_s1 * b3_o_16;
+        const V b3_a_4 = a_c2 * b3_o_21;
+        const V b3_a_5 = fma(a_s2, b3_e_8, -b3_a_4);
+        const V b3_a_6 = a_s2 * b3_o_21;
+        const T a_1 = fma(-a_2c1, a_c2, a_c1);
+        const T a_2 = fma(-a_2c1, a_s2, a_s1);
+        const V b3_a_7 = a_1 * b3_o_17;
+        const V b3_a_8 = fma(a_2, b3_e_7, b3_a_7);
+        const V b3_a_9 = a_2 * b3_o_17;
+        const V b3_a_10 = fma(-a_1, b3_e_7, b3_a_9);
+        const V b3_a_11 = fma(-a_c2, b3_e_8, -b3_a_6);
+        const V b3_a_12 = fma(-a_c1, b3_e_6, b3_a_3);
+        out[9] = b3_a_10;
+        out[10] = b3_a_11;
+        out[11] = b3_a_12;
+        out[12] = b3_o_20;
+        out[13] = b3_a_2;
+        out[14] = b3_a_5;
+        out[15] = b3_a_8;
+    }
+}
+
+/// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
+/// Turns the function, not the frame.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// scalars : 33 values, for `apply`.
+/// scalars must not overlap R.
+/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
+/// odd bands.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
+template <class T>
+void prepare(const T* R, T* scalars) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    const T euler_1 = copysign(T(1.0000000000000001e-18), r02);
+    const T x = r02 + euler_1;
+    const T euler_2 = r12 * r12;
+    const T euler_3 = fma(x, x, euler_2);
+    const T b_s1 = sqrt(euler_3);
+    const T a_c1 = x / b_s1;
+    const T a_s1 = r12 / b_s1;
+    const T euler_4 = r10 * a_c1;
+    const T euler_5 = fma(r00, a_s1, -euler_4);
+    const T euler_6 = r11 * a_c1;
+    const T euler_7 = fma(r01, a_s1, -euler_6);
+    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
+    const T euler_9 = fma(-euler_5, euler_5, euler_8);
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(euler_5, euler_10, euler_5);
+    const T euler_12 = fma(euler_7, euler_10, euler_7);
+    const T g_1 = euler_12 + euler_12;
+    const T g_s2 = euler_11 * g_1;
+    const T g_c2 = fma(euler_12, g_1, T(-1.0));
+    const T b2_e_scalar_1 = T(1.2247448713915889) * b_s1;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * b_s1;
+    const T b2_e_scalar_3 = T(1.4142135623730951) * r22;
+    const T a_2c1 = a_c1 + a_c1;
+    const T a_s2 = a_s1 * a_2c1;
+    const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+    const T g_c3 = fma(-g_1, g_c2, euler_12);
+    const T g_s3 = fma(-g_1, g_s2, euler_11);
+    const T b3_e_scalar_1 = T(1.1180339887498949) * b_s1;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * b_s1;
+    const T b3_o_scalar_1 = T(0.9375) * r22;
+    const T b3_o_scalar_2 = T(0.76546554461974314) * b_s1;
+    const T b3_o_scalar_3 = T(0.625) * r22;
+    const T b_1 = fma(-r22, r22, euler_3);
+    const T b_2 = b_1 + b_1;
+    const T b_3 = fma(r22, b_2, r22);
+    const T b_s3 = fma(-b_s1, b_2, b_s1);
+    const T b3_o_scalar_4 = T(0.9375) * b_3;
+    const T b3_o_scalar_5 = T(0.76546554461974314) * b_s3;
+    const T b3_o_scalar_6 = T(0.625) * b_3;
+    const T a_1 = fma(-a_2c1, a_c2, a_c1);
+    const T a_2 = fma(-a_2c1, a_s2, a_s1);
+    scalars[0] = r11;
+    scalars[1] = r10;
+    scalars[2] = r12;
+    scalars[3] = r21;
+    scalars[4] = r20;
+    scalars[5] = r22;
+    scalars[6] = r01;
+    scalars[7] = r00;
+    scalars[8] = r02;
+    scalars[9] = euler_12;
+    scalars[10] = euler_11;
+    scalars[11] = g_c2;
+    scalars[12] = g_s2;
+    scalars[13] = b2_e_scalar_2;
+    scalars[14] = b2_e_scalar_1;
+    scalars[15] = b2_e_scalar_3;
+    scalars[16] = b_s1;
+    scalars[17] = a_c1;
+    scalars[18] = a_s1;
+    scalars[19] = a_c2;
+    scalars[20] = a_s2;
+    scalars[21] = g_c3;
+    scalars[22] = g_s3;
+    scalars[23] = b3_e_scalar_2;
+    scalars[24] = b3_e_scalar_1;
+    scalars[25] = b3_o_scalar_1;
+    scalars[26] = b3_o_scalar_2;
+    scalars[27] = b3_o_scalar_3;
+    scalars[28] = b3_o_scalar_4;
+    scalars[29] = b3_o_scalar_5;
+    scalars[30] = b3_o_scalar_6;
+    scalars[31] = a_1;
+    scalars[32] = a_2;
+}
+
+/// Rotates a vector by what `prepare` made of the rotation: the cheapest for many vectors.
+/// Bands are independent: a NaN stays in its band.
+/// scalars : 33 values, by `prepare`.
+/// f : 16 values, index l(l+1)+m.
+/// out : 16 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Error: at most (kApplyBound... + kApplyExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
+template <class T, class V = T>
+void apply(const T* scalars, const V* f, V* out) {
+    const T r11 = scalars[0];
+    const T r10 = scalars[1];
+    const T r12 = scalars[2];
+    const T r21 = scalars[3];
+    const T r20 = scalars[4];
+    const T r22 = scalars[5];
+    const T r01 = scalars[6];
+    const T r00 = scalars[7];
+    const T r02 = scalars[8];
+    const T euler_1 = scalars[9];
+    const T euler_2 = scalars[10];
+    const T g_c2 = scalars[11];
+    const T g_s2 = scalars[12];
+    const T b2_e_scalar_1 = scalars[13];
+    const T b2_e_scalar_2 = scalars[14];
+    const T b2_e_scalar_3 = scalars[15];
+    const T b_s1 = scalars[16];
+    const T a_c1 = scalars[17];
+    const T a_s1 = scalars[18];
+    const T a_c2 = scalars[19];
+    const T a_s2 = scalars[20];
+    const T g_c3 = scalars[21];
+    const T g_s3 = scalars[22];
+    const T b3_e_scalar_1 = scalars[23];
+    const T b3_e_scalar_2 = scalars[24];
+    const T b3_o_scalar_1 = scalars[25];
+    const T b3_o_scalar_2 = scalars[26];
+    const T b3_o_scalar_3 = scalars[27];
+    const T b3_o_scalar_4 = scalars[28];
+    const T b3_o_scalar_5 = scalars[29];
+    const T b3_o_scalar_6 = scalars[30];
+    const T a_1 = scalars[31];
+    const T a_2 = scalars[32];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const V b2_g_1 = euler_1 * f[7];
+    const V b2_g_2 = fma(euler_2, f[5], -b2_g_1);
+    const V b2_g_3 = euler_2 * f[7];
+    const V b2_g_4 = fma(euler_1, f[5], b2_g_3);
+    const V b2_g_5 = g_c2 * f[8];
+    const V b2_g_6 = fma(g_s2, f[4], -b2_g_5);
+    const V b2_g_7 = g_s2 * f[8];
+    const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
+    const V b2_e_1 = b2_e_scalar_1 * b2_g_6;
+    const V b2_e_2 = fma(b2_e_scalar_2, f[6], b2_e_1);
+    const V b2_e_3 = fma(b2_e_scalar_3, b2_g_2, b2_e_2);
+    const V b2_e_4 = fma(-b2_e_scalar_2, b2_e_3, f[6]);
+    const V b2_e_5 = fma(-b2_e_scalar_1, b2_e_3, b2_g_6);
+    const V b2_e_6 = fma(-b2_e_scalar_3, b2_e_3, b2_g_2);
+    const V b2_o_1 = r22 * b2_g_8;
+    const V b2_o_2 = fma(b_s1, b2_g_4, -b2_o_1);
+    const V b2_o_3 = b_s1 * b2_g_8;
+    const V b2_o_4 = fma(r22, b2_g_4, b2_o_3);
+    const V b2_a_1 = a_c1 * b2_e_6;
+    const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
+    const V b2_a_3 = a_s1 * b2_e_6;
+    const V b2_a_4 = a_c2 * b2_e_5;
+    const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
+    const V b2_a_6 = a_s2 * b2_e_5;
+    const V b2_a_7 = fma(-a_c2, b2_o_2, -b2_a_6);
+    const V b2_a_8 = fma(-a_c1, b2_o_4, -b2_a_3);
+    out[4] = b2_a_7;
+    out[5] = b2_a_8;
+    out[6] = b2_e_4;
+    out[7] = b2_a_2;
+    out[8] = b2_a_5;
+    const V b3_g_1 = euler_1 * f[13];
+    const V b3_g_2 = fma(euler_2, f[11], -b3_g_1);
+    const V b3_g_3 = euler_2 * f[13];
+    const V b3_g_4 = fma(euler_1, f[11], b3_g_3);
+    const V b3_g_5 = g_c2 * f[14];
+    const V b3_g_6 = fma(g_s2, f[10], -b3_g_5);
+    const V b3_g_7 = g_s2 * f[14];
+    const V b3_g_8 = fma(g_c2, f[10], b3_g_7);
+    const V b3_g_9 = g_c3 * f[15];
+    const V b3_g_10 = fma(g_s3, f[9], -b3_g_9);
+    const V b3_g_11 = g_s3 * f[15];
+    const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
+    const V b3_e_1 = b3_e_scalar_1 * b3_g_12;
+    const V b3_e_2 = fma(b3_e_scalar_2, b3_g_4, b3_e_1);
+    const V b3_e_3 = fma(-b2_e_scalar_3, b3_g_8, b3_e_2);
+    const V b3_e_4 = fma(-b3_e_scalar_2, b3_e_3, b3_g_4);
+    const V b3_e_5 = fma(-b3_e_scalar_1, b3_e_3, b3_g_12);
+    const V b3_e_6 = fma(b2_e_scalar_3, b3_e_3, b3_g_8);
+    const V b3_o_1 = fma(T(-0.25819888974716115), b3_g_2, b3_g_10);
+    const V b3_o_2 = fma(T(0.25819888974716115), b3_g_10, b3_g_2);
+    const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
+    const V b3_o_4 = fma(T(0.7745966692414834), b3_g_6, f[12]);
+    const V b3_o_5 = b3_o_scalar_1 * b3_o_1;
+    const V b3_o_6 = fma(b3_o_scalar_2, b3_o_3, b3_o_5);
+    const V b3_o_7 = b3_o_scalar_2 * b3_o_1;
+    const V b3_o_8 = fma(b3_o_scalar_3, b3_o_3, -b3_o_7);
+    const V b3_o_9 = b3_o_scalar_4 * b3_o_2;
+    const V b3_o_10 = fma(b3_o_scalar_5, b3_o_4, -b3_o_9);
+    const V b3_o_11 = b3_o_scalar_5 * b3_o_2;
+    const V b3_o_12 = fma(b3_o_scalar_6, b3_o_4, b3_o_11);
+    const V b3_o_13 = fma(T(-0.25819888974716115), b3_o_6, b3_o_10);
+    const V b3_o_14 = fma(T(0.25819888974716115), b3_o_10, b3_o_6);
+    const V b3_o_15 = fma(T(-0.7745966692414834), b3_o_12, b3_o_8);
+    const V b3_a_1 = a_c1 * b3_o_13;
+    const V b3_a_2 = fma(a_s1, b3_e_4, b3_a_1);
+    const V b3_a_3 = a_s1 * b3_o_13;
+    const V b3_a_4 = a_c2 * b3_o_15;
+    const V b3_a_5 = fma(a_s2, b3_e_6, -b3_a_4);
+    const V b3_a_6 = a_s2 * b3_o_15;
+    const V b3_a_7 = a_1 * b3_o_14;
+    const V b3_a_8 = fma(a_2, b3_e_5, b3_a_7);
+    const V b3_a_9 = a_2 * b3_o_14;
+    const V b3_a_10 = fma(-a_1, b3_e_5, b3_a_9);
+    const V b3_a_11 = fma(-a_c2, b3_e_6, -b3_a_6);
+    const V b3_a_12 = fma(-a_c1, b3_e_4, b3_a_3);
+    const V b3_o_16 = fma(T(-0.7745966692414834), b3_o_8, -b3_o_12);
+    out[9] = b3_a_10;
+    out[10] = b3_a_11;
+    out[11] = b3_a_12;
+    out[12] = b3_o_16;
+    out[13] = b3_a_2;
+    out[14] = b3_a_5;
+    out[15] = b3_a_8;
+}
+
+/// The most accurate exact rotation, mirrors included.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// f : 16 values, index l(l+1)+m.
+/// out : 16 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Error: at most (kRotateAccurateBound... + kRotateAccurateExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+template <class T, class V = T>
+void rotate_accurate(const T* R, const V* f, V* out) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const T d2_1 = r00 * r11;
+    const T d2_2 = fma(r01, r10, d2_1);
+    const T d2_3 = d2_2 + d2_2;
+    const T d2_0_0 = T(0.5) * d2_3;
+    const T d2_4 = r01 * r12;
+    const T d2_0_1 = fma(r02, r11, d2_4);
+    const T d2_5 = r02 * r12;
+    const T d2_6 = d2_5 + d2_5;
+    const T d2_0_2 = T(0.8660254037844386) * d2_6;
+    const T d2_7 = r00 * r12;
+    const T d2_0_3 = fma(r02, r10, d2_7);
+    const T d2_8 = r00 * r10;
+    const T d2_9 = fma(r01, r11, -d2_8);
+    const T d2_10 = d2_9 + d2_9;
+    const T d2_11 = T(0.5) * d2_10;
+    const T d2_12 = r11 * r20;
+    const T d2_13 = fma(r10, r21, d2_12);
+    const T d2_14 = d2_13 + d2_13;
+    const T d2_1_0 = T(0.5) * d2_14;
+    const T d2_15 = r12 * r21;
+    const T d2_1_1 = fma(r11, r22, d2_15);
+    const T d2_16 = r12 * r22;
+    const T d2_17 = d2_16 + d2_16;
+    const T d2_1_2 = T(0.8660254037844386) * d2_17;
+    const T d2_18 = r12 * r20;
+    const T d2_1_3 = fma(r10, r22, d2_18);
+    const T d2_19 = r10 * r20;
+    const T d2_20 = fma(r11, r21, -d2_19);
+    const T d2_21 = d2_20 + d2_20;
+    const T d2_22 = T(0.5) * d2_21;
+    const T d2_23 = r20 * r21;
+    const T d2_24 = d2_23 + d2_23;
+    const T d2_25 = r00 * r01;
+    const T d2_26 = d2_25 + d2_25;
+    const T d2_27 = r10 * r11;
+    const T d2_28 = d2_27 + d2_27;
+    const T d2_29 = d2_26 + d2_28;
+    const T d2_30 = T(0.28867513459481287) * d2_29;
+    const T d2_2_0 = fma(T(0.57735026918962573), d2_24, -d2_30);
+    const T d2_31 = r21 * r22;
+    const T d2_32 = r11 * r12;
+    const T d2_33 = fma(r01, r02, d2_32);
+    const T d2_34 = T(0.57735026918962573) * d2_33;
+    const T d2_2_1 = fma(T(1.1547005383792515), d2_31, -d2_34);
+    const T d2_35 = r12 * r12;
+    const T d2_36 = fma(r02, r02, d2_35);
+    const T d2_37 = T(0.5) * d2_36;
+    const T d2_2_2 = fma(r22, r22, -d2_37);
+    const T d2_38 = r20 * r22;
+    const T d2_39 = r10 * r12;
+    const T d2_40 = fma(r00, r02, d2_39);
+    const T d2_41 = T(0.57735026918962573) * d2_40;
+    const T d2_2_3 = fma(T(1.1547005383792515), d2_38, -d2_41);
+    const T d2_42 = r20 * r20;
+    const T d2_43 = fma(r21, r21, -d2_42);
+    const T d2_44 = r00 * r00;
+    const T d2_45 = fma(r01, r01, -d2_44);
+    const T d2_46 = r10 * r10;
+    const T d2_47 = fma(r11, r11, -d2_46);
+    const T d2_48 = d2_45 + d2_47;
+    const T d2_49 = T(0.28867513459481287) * d2_48;
+    const T d2_50 = fma(T(0.57735026918962573), d2_43, -d2_49);
+    const T d2_51 = r01 * r20;
+    const T d2_52 = fma(r00, r21, d2_51);
+    const T d2_53 = d2_52 + d2_52;
+    const T d2_3_0 = T(0.5) * d2_53;
+    const T d2_54 = r02 * r21;
+    const T d2_3_1 = fma(r01, r22, d2_54);
+    const T d2_55 = r02 * r22;
+    const T d2_56 = d2_55 + d2_55;
+    const T d2_3_2 = T(0.8660254037844386) * d2_56;
+    const T d2_57 = r02 * r20;
+    const T d2_3_3 = fma(r00, r22, d2_57);
+    const T d2_58 = r00 * r20;
+    const T d2_59 = fma(r01, r21, -d2_58);
+    const T d2_60 = d2_59 + d2_59;
+    const T d2_61 = T(0.5) * d2_60;
+    const T d2_62 = d2_26 - d2_28;
+    const T d2_4_0 = T(0.5) * d2_62;
+    const T d2_4_1 = fma(r01, r02, -d2_32);
+    const T d2_63 = fma(r02, r02, -d2_35);
+    const T d2_4_2 = T(0.8660254037844386) * d2_63;
+    const T d2_4_3 = fma(r00, r02, -d2_39);
+    const T d2_64 = d2_45 - d2_47;
+    const T d2_65 = T(0.5) * d2_64;
+    const V b2_1 = d2_0_1 * f[5];
+    const V b2_2 = fma(d2_0_0, f[4], b2_1);
+    const V b2_3 = fma(d2_0_2, f[6], b2_2);
+    const V b2_4 = fma(d2_0_3, f[7], b2_3);
+    const V b2_5 = fma(-d2_11, f[8], b2_4);
+    const V b2_6 = d2_1_1 * f[5];
+    const V b2_7 = fma(d2_1_0, f[4], b2_6);
+    const V b2_8 = fma(d2_1_2, f[6], b2_7);
+    const V b2_9 = fma(d2_1_3, f[7], b2_8);
+    const V b2_10 = fma(-d2_22, f[8], b2_9);
+    const V b2_11 = d2_2_1 * f[5];
+    const V b2_12 = fma(d2_2_0, f[4], b2_11);
+    const V b2_13 = fma(d2_2_2, f[6], b2_12);
+    const V b2_14 = fma(d2_2_3, f[7], b2_13);
+    const V b2_15 = fma(-d2_50, f[8], b2_14);
+    const V b2_16 = d2_3_1 * f[5];
+    const V b2_17 = fma(d2_3_0, f[4], b2_16);
+    const V b2_18 = fma(d2_3_2, f[6], b2_17);
+    const V b2_19 = fma(d2_3_3, f[7], b2_18);
+    const V b2_20 = fma(-d2_61, f[8], b2_19);
+    const V b2_21 = d2_4_1 * f[5];
+    const V b2_22 = fma(d2_4_0, f[4], b2_21);
+    const V b2_23 = fma(d2_4_2, f[6], b2_22);
+    const V b2_24 = fma(d2_4_3, f[7], b2_23);
+    const V b2_25 = fma(-d2_65, f[8], b2_24);
+    out[4] = b2_5;
+    out[5] = b2_10;
+    out[6] = b2_15;
+    out[7] = b2_20;
+    out[8] = b2_25;
+    const T d3_1 = r00 * d2_0_0;
+    const T d3_2 = fma(r01, d2_11, -d3_1);
+    const T d3_3 = r10 * d2_4_0;
+    const T d3_4 = fma(r11, d2_65, -d3_3);
+    const T d3_5 = d3_2 + d3_4;
+    const T d3_6 = T(0.5) * d3_5;
+    const T d3_7 = r12 * d2_4_0;
+    const T d3_8 = fma(r02, d2_0_0, d3_7);
+    const T d3_0_1 = T(1.2247448713915889) * d3_8;
+    const T d3_9 = r12 * d2_4_1;
+    const T d3_10 = fma(r02, d2_0_1, d3_9);
+    const T d3_0_2 = T(0.96824583655185426) * d3_10;
+    const T d3_11 = r12 * d2_4_2;
+    const T d3_12 = fma(r02, d2_0_2, d3_11);
+    const T d3_0_3 = T(0.9128709291752769) * d3_12;
+    const T d3_13 = r12 * d2_4_3;
+    const T d3_14 = fma(r02, d2_0_3, d3_13);
+    const T d3_0_4 = T(0.96824583655185426) * d3_14;
+    const T d3_15 = r12 * d2_65;
+    const T d3_16 = fma(r02, d2_11, d3_15);
+    const T d3_17 = T(1.2247448713915889) * d3_16;
+    const T d3_18 = r00 * d2_11;
+    const T d3_19 = fma(r01, d2_0_0, d3_18);
+    const T d3_20 = r10 * d2_65;
+    const T d3_21 = fma(r11, d2_4_0, d3_20);
+    const T d3_22 = d3_19 + d3_21;
+    const T d3_23 = T(0.5) * d3_22;
+    const T d3_24 = r20 * d2_0_0;
+    const T d3_25 = fma(r21, d2_11, -d3_24);
+    const T d3_26 = r00 * d2_1_0;
+    const T d3_27 = fma(r01, d2_22, -d3_26);
+    const T d3_28 = r10 * d2_3_0;
+    const T d3_29 = fma(r11, d2_61, -d3_28);
+    const T d3_30 = d3_25 + d3_27;
+    const T d3_31 = d3_29 + d3_30;
+    const T d3_32 = T(0.40824829046386302) * d3_31;
+    const T d3_33 = r02 * d2_1_0;
+    const T d3_34 = fma(r22, d2_0_0, d3_33);
+    const T d3_1_1 = fma(r12, d2_3_0, d3_34);
+    const T d3_35 = r02 * d2_1_1;
+    const T d3_36 = fma(r22, d2_0_1, d3_35);
+    const T d3_37 = fma(r12, d2_3_1, d3_36);
+    const T d3_1_2 = T(0.79056941504209488) * d3_37;
+    const T d3_38 = r02 * d2_1_2;
+    const T d3_39 = fma(r22, d2_0_2, d3_38);
+    const T d3_40 = fma(r12, d2_3_2, d3_39);
+    const T d3_1_3 = T(0.7453559924999299) * d3_40;
+    const T d3_41 = r02 * d2_1_3;
+    const T d3_42 = fma(r22, d2_0_3, d3_41);
+    const T d3_43 = fma(r12, d2_3_3, d3_42);
+    const T d3_1_4 = T(0.79056941504209488) * d3_43;
+    const T d3_44 = r02 * d2_22;
+    const T d3_45 = fma(r22, d2_11, d3_44);
+    const T d3_46 = fma(r12, d2_61, d3_45);
+    const T d3_47 = r20 * d2_11;
+    const T d3_48 = fma(r21, d2_0_0, d3_47);
+    const T d3_49 = r00 * d2_22;
+    const T d3_50 = fma(r01, d2_1_0, d3_49);
+    const T d3_51 = r10 * d2_61;
+    const T d3_52 = fma(r11, d2_3_0, d3_51);
+    const T d3_53 = d3_48 + d3_50;
+    const T d3_54 = d3_52 + d3_53;
+    const T d3_55 = T(0.40824829046386302) * d3_54;
+    const T d3_56 = r20 * d2_1_0;
+    const T d3_57 = fma(r21, d2_22, -d3_56);
+    const T d3_58 = r10 * d2_2_0;
+    const T d3_59 = fma(r11, d2_50, -d3_58);
+    const T d3_60 = T(0.44721359549995793) * d3_59;
+    const T d3_61 = fma(T(0.51639777949432231), d3_57, d3_60);
+    const T d3_62 = d3_2 - d3_4;
+    const T d3_63 = fma(T(-0.12909944487358058), d3_62, d3_61);
+    const T d3_64 = r22 * d2_1_0;
+    const T d3_65 = r12 * d2_2_0;
+    const T d3_66 = T(1.0954451150103321) * d3_65;
+    const T d3_67 = fma(T(1.2649110640673518), d3_64, d3_66);
+    const T d3_68 = fma(r02, d2_0_0, -d3_7);
+    const T d3_2_1 = fma(T(-0.31622776601683794), d3_68, d3_67);
+    const T d3_69 = r12 * d2_2_1;
+    const T d3_70 = T(0.8660254037844386) * d3_69;
+    const T d3_71 = fma(r22, d2_1_1, d3_70);
+    const T d3_72 = fma(r02, d2_0_1, -d3_9);
+    const T d3_2_2 = fma(T(-0.25), d3_72, d3_71);
+    const T d3_73 = r22 * d2_1_2;
+    const T d3_74 = r12 * d2_2_2;
+    const T d3_75 = T(0.81649658092772603) * d3_74;
+    const T d3_76 = fma(T(0.94280904158206336), d3_73, d3_75);
+    const T d3_77 = fma(r02, d2_0_2, -d3_11);
+    const T d3_2_3 = fma(T(-0.23570226039551584), d3_77, d3_76);
+    const T d3_78 = r12 * d2_2_3;
+    const T d3_79 = T(0.8660254037844386) * d3_78;
+    const T d3_80 = fma(r22, d2_1_3, d3_79);
+    const T d3_81 = fma(r02, d2_0_3, -d3_13);
+    const T d3_2_4 = fma(T(-0.25), d3_81, d3_80);
+    const T d3_82 = r22 * d2_22;
+    const T d3_83 = r12 * d2_50;
+    const T d3_84 = T(1.0954451150103321) * d3_83;
+    const T d3_85 = fma(T(1.2649110640673518), d3_82, d3_84);
+    const T d3_86 = fma(r02, d2_11, -d3_15);
+    const T d3_87 = fma(T(-0.31622776601683794), d3_86, d3_85);
+    const T d3_88 = r20 * d2_22;
+    const T d3_89 = fma(r21, d2_1_0, d3_88);
+    const T d3_90 = r10 * d2_50;
+    const T d3_91 = fma(r11, d2_2_0, d3_90);
+    const T d3_92 = T(0.44721359549995793) * d3_91;
+    const T d3_93 = fma(T(0.51639777949432231), d3_89, d3_92);
+    const T d3_94 = d3_19 - d3_21;
+    const T d3_95 = fma(T(-0.12909944487358058), d3_94, d3_93);
+    const T d3_96 = r20 * d2_2_0;
+    const T d3_97 = fma(r21, d2_50, -d3_96);
+    const T d3_98 = r00 * d2_3_0;
+    const T d3_99 = fma(r01, d2_61, -d3_98);
+    const T d3_100 = r10 * d2_1_0;
+    const T d3_101 = fma(r11, d2_22, -d3_100);
+    const T d3_102 = d3_99 + d3_101;
+    const T d3_103 = T(0.31622776601683794) * d3_102;
+    const T d3_104 = fma(T(0.54772255750516607), d3_97, -d3_103);
+    const T d3_105 = r22 * d2_2_0;
+    const T d3_106 = r02 * d2_3_0;
+    const T d3_107 = fma(r12, d2_1_0, d3_106);
+    const T d3_108 = T(0.7745966692414834) * d3_107;
+    const T d3_3_1 = fma(T(1.3416407864998738), d3_105, -d3_108);
+    const T d3_109 = r22 * d2_2_1;
+    const T d3_110 = r02 * d2_3_1;
+    const T d3_111 = fma(r12, d2_1_1, d3_110);
+    const T d3_112 = T(0.61237243569579447) * d3_111;
+    const T d3_3_2 = fma(T(1.0606601717798212), d3_109, -d3_112);
+    const T d3_113 = r02 * d2_3_2;
+    const T d3_114 = fma(r12, d2_1_2, d3_113);
+    const T d3_115 = T(0.57735026918962573) * d3_114;
+    const T d3_3_3 = fma(r22, d2_2_2, -d3_115);
+    const T d3_116 = r22 * d2_2_3;
+    const T d3_117 = r02 * d2_3_3;
+    const T d3_118 = fma(r12, d2_1_3, d3_117);
+    const T d3_119 = T(0.61237243569579447) * d3_118;
+    const T d3_3_4 = fma(T(1.0606601717798212), d3_116, -d3_119);
+    const T d3_120 = r22 * d2_50;
+    const T d3_121 = r02 * d2_61;
+    const T d3_122 = fma(r12, d2_22, d3_121);
+    const T d3_123 = T(0.7745966692414834) * d3_122;
+    const T d3_124 = fma(T(1.3416407864998738), d3_120, -d3_123);
+    const T d3_125 = r20 * d2_50;
+    const T d3_126 = fma(r21, d2_2_0, d3_125);
+    const T d3_127 = r00 * d2_61;
+    const T d3_128 = fma(r01, d2_3_0, d3_127);
+    const T d3_129 = r10 * d2_22;
+    const T d3_130 = fma(r11, d2_1_0, d3_129);
+    const T d3_131 = d3_128 + d3_130;
+    const T d3_132 = T(0.31622776601683794) * d3_131;
+    const T d3_133 = fma(T(0.54772255750516607), d3_126, -d3_132);
+    const T d3_134 = r20 * d2_3_0;
+    const T d3_135 = fma(r21, d2_61, -d3_134);
+    const T d3_136 = r00 * d2_2_0;
+    const T d3_137 = fma(r01, d2_50, -d3_136);
+    const T d3_138 = r00 * d2_4_0;
+    const T d3_139 = fma(r01, d2_65, -d3_138);
+    const T d3_140 = r10 * d2_0_0;
+    const T d3_141 = fma(r11, d2_11, -d3_140);
+    const T d3_142 = T(0.44721359549995793) * d3_137;
+    const T d3_143 = fma(T(0.51639777949432231), d3_135, d3_142);
+    const T d3_144 = d3_139 + d3_141;
+    const T d3_145 = fma(T(-0.12909944487358058), d3_144, d3_143);
+    const T d3_146 = r22 * d2_3_0;
+    const T d3_147 = r02 * d2_2_0;
+    const T d3_148 = r12 * d2_0_0;
+    const T d3_149 = T(1.0954451150103321) * d3_147;
+    const T d3_150 = fma(T(1.2649110640673518), d3_146, d3_149);
+    const T d3_151 = fma(r02, d2_4_0, d3_148);
+    const T d3_4_1 = fma(T(-0.31622776601683794), d3_151, d3_150);
+    const T d3_152 = r02 * d2_2_1;
+    const T d3_153 = r12 * d2_0_1;
+    const T d3_154 = T(0.8660254037844386) * d3_152;
+    const T d3_155 = fma(r22, d2_3_1, d3_154);
+    const T d3_156 = fma(r02, d2_4_1, d3_153);
+    const T d3_4_2 = fma(T(-0.25), d3_156, d3_155);
+    const T d3_157 = r22 * d2_3_2;
+    const T d3_158 = r02 * d2_2_2;
+    const T d3_159 = r12 * d2_0_2;
+    const T d3_160 = T(0.81649658092772603) * d3_158;
+    const T d3_161 = fma(T(0.94280904158206336), d3_157, d3_160);
+    const T d3_162 = fma(r02, d2_4_2, d3_159);
+    const T d3_4_3 = fma(T(-0.23570226039551584), d3_162, d3_161);
+    const T d3_163 = r02 * d2_2_3;
+    const T d3_164 = r12 * d2_0_3;
+    const T d3_165 = T(0.8660254037844386) * d3_163;
+    const T d3_166 = fma(r22, d2_3_3, d3_165);
+    const T d3_167 = fma(r02, d2_4_3, d3_164);
+    const T d3_4_4 = fma(T(-0.25), d3_167, d3_166);
+    const T d3_168 = r22 * d2_61;
+    const T d3_169 = r02 * d2_50;
+    const T d3_170 = r12 * d2_11;
+    const T d3_171 = T(1.0954451150103321) * d3_169;
+    const T d3_172 = fma(T(1.2649110640673518), d3_168, d3_171);
+    const T d3_173 = fma(r02, d2_65, d3_170);
+    const T d3_174 = fma(T(-0.31622776601683794), d3_173, d3_172);
+    const T d3_175 = r20 * d2_61;
+    const T d3_176 = fma(r21, d2_3_0, d3_175);
+    const T d3_177 = r00 * d2_50;
+    const T d3_178 = fma(r01, d2_2_0, d3_177);
+    const T d3_179 = r00 * d2_65;
+    const T d3_180 = fma(r01, d2_4_0, d3_179);
+    const T d3_181 = r10 * d2_11;
+    const T d3_182 = fma(r11, d2_0_0, d3_181);
+    const T d3_183 = T(0.44721359549995793) * d3_178;
+    const T d3_184 = fma(T(0.51639777949432231), d3_176, d3_183);
+    const T d3_185 = d3_180 + d3_182;
+    const T d3_186 = fma(T(-0.12909944487358058), d3_185, d3_184);
+    const T d3_187 = r20 * d2_4_0;
+    const T d3_188 = fma(r21, d2_65, -d3_187);
+    const T d3_189 = d3_99 + d3_188;
+    const T d3_190 = d3_101 - d3_189;
+    const T d3_5_0 = T(0.40824829046386302) * d3_190;
+    const T d3_191 = fma(r22, d2_4_0, d3_106);
+    const T d3_192 = fma(r12, d2_1_0, -d3_191);
+    const T d3_193 = fma(r22, d2_4_1, d3_110);
+    const T d3_194 = fma(r12, d2_1_1, -d3_193);
+    const T d3_195 = T(0.79056941504209488) * d3_194;
+    const T d3_196 = fma(r22, d2_4_2, d3_113);
+    const T d3_197 = fma(r12, d2_1_2, -d3_196);
+    const T d3_198 = T(0.7453559924999299) * d3_197;
+    const T d3_199 = fma(r22, d2_4_3, d3_117);
+    const T d3_200 = fma(r12, d2_1_3, -d3_199);
+    const T d3_201 = T(0.79056941504209488) * d3_200;
+    const T d3_202 = fma(r22, d2_65, d3_121);
+    const T d3_5_5 = fma(r12, d2_22, -d3_202);
+    const T d3_203 = r20 * d2_65;
+    const T d3_204 = fma(r21, d2_4_0, d3_203);
+    const T d3_205 = d3_128 + d3_204;
+    const T d3_206 = d3_130 - d3_205;
+    const T d3_5_6 = T(0.40824829046386302) * d3_206;
+    const T d3_207 = d3_139 - d3_141;
+    const T d3_208 = T(0.5) * d3_207;
+    const T d3_209 = fma(r02, d2_4_0, -d3_148);
+    const T d3_6_1 = T(1.2247448713915889) * d3_209;
+    const T d3_210 = fma(r02, d2_4_1, -d3_153);
+    const T d3_6_2 = T(0.96824583655185426) * d3_210;
+    const T d3_211 = fma(r02, d2_4_2, -d3_159);
+    const T d3_6_3 = T(0.9128709291752769) * d3_211;
+    const T d3_212 = fma(r02, d2_4_3, -d3_164);
+    const T d3_6_4 = T(0.96824583655185426) * d3_212;
+    const T d3_213 = fma(r02, d2_65, -d3_170);
+    const T d3_214 = T(1.2247448713915889) * d3_213;
+    const T d3_215 = d3_180 - d3_182;
+    const T d3_216 = T(0.5) * d3_215;
+    const V b3_1 = d3_0_1 * f[10];
+    const V b3_2 = fma(d3_6, f[9], -b3_1);
+    const V b3_3 = fma(-d3_0_2, f[11], b3_2);
+    const V b3_4 = fma(-d3_0_3, f[12], b3_3);
+    const V b3_5 = fma(-d3_0_4, f[13], b3_4);
+    const V b3_6 = fma(d3_17, f[14], b3_5);
+    const V b3_7 = d3_1_1 * f[10];
+    const V b3_8 = fma(d3_32, f[9], -b3_7);
+    const V b3_9 = fma(-d3_1_2, f[11], b3_8);
+    const V b3_10 = fma(-d3_1_3, f[12], b3_9);
+    const V b3_11 = fma(-d3_1_4, f[13], b3_10);
+    const V b3_12 = fma(d3_46, f[14], b3_11);
+    const V b3_13 = d3_2_1 * f[10];
+    const V b3_14 = fma(d3_63, f[9], -b3_13);
+    const V b3_15 = fma(-d3_2_2, f[11], b3_14);
+    const V b3_16 = fma(-d3_2_3, f[12], b3_15);
+    const V b3_17 = fma(-d3_2_4, f[13], b3_16);
+    const V b3_18 = fma(d3_87, f[14], b3_17);
+    const V b3_19 = d3_3_1 * f[10];
+    const V b3_20 = fma(d3_104, f[9], -b3_19);
+    const V b3_21 = fma(-d3_3_2, f[11], b3_20);
+    const V b3_22 = fma(-d3_3_3, f[12], b3_21);
+    const V b3_23 = fma(-d3_3_4, f[13], b3_22);
+    const V b3_24 = fma(d3_124, f[14], b3_23);
+    const V b3_25 = d3_4_1 * f[10];
+    const V b3_26 = fma(d3_145, f[9], -b3_25);
+    const V b3_27 = fma(-d3_4_2, f[11], b3_26);
+    const V b3_28 = fma(-d3_4_3, f[12], b3_27);
+    const V b3_29 = fma(-d3_4_4, f[13], b3_28);
+    const V b3_30 = fma(d3_174, f[14], b3_29);
+    const V b3_31 = d3_192 * f[10];
+    const V b3_32 = fma(d3_5_0, f[9], -b3_31);
+    const V b3_33 = fma(-d3_195, f[11], b3_32);
+    const V b3_34 = fma(-d3_198, f[12], b3_33);
+    const V b3_35 = fma(-d3_201, f[13], b3_34);
+    const V b3_36 = fma(d3_5_5, f[14], b3_35);
+    const V b3_37 = fma(d3_5_6, f[15], b3_36);
+    const V b3_38 = d3_6_1 * f[10];
+    const V b3_39 = fma(d3_208, f[9], -b3_38);
+    const V b3_40 = fma(-d3_6_2, f[11], b3_39);
+    const V b3_41 = fma(-d3_6_3, f[12], b3_40);
+    const V b3_42 = fma(-d3_6_4, f[13], b3_41);
+    const V b3_43 = fma(d3_214, f[14], b3_42);
+    const V b3_44 = fma(-d3_23, f[15], -b3_6);
+    const V b3_45 = fma(-d3_55, f[15], -b3_12);
+    const V b3_46 = fma(-d3_95, f[15], -b3_18);
+    const V b3_47 = fma(-d3_133, f[15], -b3_24);
+    const V b3_48 = fma(-d3_186, f[15], -b3_30);
+    const V b3_49 = fma(-d3_216, f[15], -b3_43);
+    out[9] = b3_44;
+    out[10] = b3_45;
+    out[11] = b3_46;
+    out[12] = b3_47;
+    out[13] = b3_48;
+    out[14] = b3_37;
+    out[15] = b3_49;
+}
+
+/// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
+/// Turns the function, not the frame.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// dense : 84 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
+/// dense must not overlap R.
+/// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
+/// Cost: see the banner.
+/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+template <class T>
+void blocks(const T* R, T* dense) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    dense[0] = T(1.0);
+    dense[1] = r11;
+    dense[2] = r12;
+    dense[3] = r10;
+    dense[4] = r21;
+    dense[5] = r22;
+    dense[6] = r20;
+    dense[7] = r01;
+    dense[8] = r02;
+    dense[9] = r00;
+    const T d2_1 = r00 * r11;
+    const T d2_2 = fma(r01, r10, d2_1);
+    const T d2_3 = d2_2 + d2_2;
+    const T d2_0_0 = T(0.5) * d2_3;
+    const T d2_4 = r01 * r12;
+    const T d2_0_1 = fma(r02, r11, d2_4);
+    const T d2_5 = r02 * r12;
+    const T d2_6 = d2_5 + d2_5;
+    const T d2_0_2 = T(0.8660254037844386) * d2_6;
+    const T d2_7 = r00 * r12;
+    const T d2_0_3 = fma(r02, r10, d2_7);
+    const T d2_8 = r00 * r10;
+    const T d2_9 = fma(r01, r11, -d2_8);
+    const T d2_10 = d2_9 + d2_9;
+    const T d2_11 = T(0.5) * d2_10;
+    const T d2_0_4 = -d2_11;
+    const T d2_12 = r11 * r20;
+    const T d2_13 = fma(r10, r21, d2_12);
+    const T d2_14 = d2_13 + d2_13;
+    const T d2_1_0 = T(0.5) * d2_14;
+    const T d2_15 = r12 * r21;
+    const T d2_1_1 = fma(r11, r22, d2_15);
+    const T d2_16 = r12 * r22;
+    const T d2_17 = d2_16 + d2_16;
+    const T d2_1_2 = T(0.8660254037844386) * d2_17;
+    const T d2_18 = r12 * r20;
+    const T d2_1_3 = fma(r10, r22, d2_18);
+    const T d2_19 = r10 * r20;
+    const T d2_20 = fma(r11, r21, -d2_19);
+    const T d2_21 = d2_20 + d2_20;
+    const T d2_22 = T(0.5) * d2_21;
+    const T d2_1_4 = -d2_22;
+    const T d2_23 = r20 * r21;
+    const T d2_24 = d2_23 + d2_23;
+    const T d2_25 = r00 * r01;
+    const T d2_26 = d2_25 + d2_25;
+    const T d2_27 = r10 * r11;
+    const T d2_28 = d2_27 + d2_27;
+    const T d2_29 = d2_26 + d2_28;
+    const T d2_30 = T(0.28867513459481287) * d2_29;
+    const T d2_2_0 = fma(T(0.57735026918962573), d2_24, -d2_30);
+    const T d2_31 = r21 * r22;
+    const T d2_32 = r11 * r12;
+    const T d2_33 = fma(r01, r02, d2_32);
+    const T d2_34 = T(0.57735026918962573) * d2_33;
+    const T d2_2_1 = fma(T(1.1547005383792515), d2_31, -d2_34);
+    const T d2_35 = r12 * r12;
+    const T d2_36 = fma(r02, r02, d2_35);
+    const T d2_37 = T(0.5) * d2_36;
+    const T d2_2_2 = fma(r22, r22, -d2_37);
+    const T d2_38 = r20 * r22;
+    const T d2_39 = r10 * r12;
+    const T d2_40 = fma(r00, r02, d2_39);
+    const T d2_41 = T(0.57735026918962573) * d2_40;
+    const T d2_2_3 = fma(T(1.1547005383792515), d2_38, -d2_41);
+    const T d2_42 = r20 * r20;
+    const T d2_43 = fma(r21, r21, -d2_42);
+    const T d2_44 = r00 * r00;
+    const T d2_45 = fma(r01, r01, -d2_44);
+    const T d2_46 = r10 * r10;
+    const T d2_47 = fma(r11, r11, -d2_46);
+    const T d2_48 = d2_45 + d2_47;
+    const T d2_49 = T(0.28867513459481287) * d2_48;
+    const T d2_50 = fma(T(0.57735026918962573), d2_43, -d2_49);
+    const T d2_2_4 = -d2_50;
+    const T d2_51 = r01 * r20;
+    const T d2_52 = fma(r00, r21, d2_51);
+    const T d2_53 = d2_52 + d2_52;
+    const T d2_3_0 = T(0.5) * d2_53;
+    const T d2_54 = r02 * r21;
+    const T d2_3_1 = fma(r01, r22, d2_54);
+    const T d2_55 = r02 * r22;
+    const T d2_56 = d2_55 + d2_55;
+    const T d2_3_2 = T(0.8660254037844386) * d2_56;
+    const T d2_57 = r02 * r20;
+    const T d2_3_3 = fma(r00, r22, d2_57);
+    const T d2_58 = r00 * r20;
+    const T d2_59 = fma(r01, r21, -d2_58);
+    const T d2_60 = d2_59 + d2_59;
+    const T d2_61 = T(0.5) * d2_60;
+    const T d2_3_4 = -d2_61;
+    const T d2_62 = d2_26 - d2_28;
+    const T d2_4_0 = T(0.5) * d2_62;
+    const T d2_4_1 = fma(r01, r02, -d2_32);
+    const T d2_63 = fma(r02, r02, -d2_35);
+    const T d2_4_2 = T(0.8660254037844386) * d2_63;
+    const T d2_4_3 = fma(r00, r02, -d2_39);
+    const T d2_64 = d2_45 - d2_47;
+    const T d2_65 = T(0.5) * d2_64;
+    const T d2_4_4 = -d2_65;
+    dense[10] = d2_0_0;
+    dense[11] = d2_0_1;
+    dense[12] = d2_0_2;
+    dense[13] = d2_0_3;
+    dense[14] = d2_0_4;
+    dense[15] = d2_1_0;
+    dense[16] = d2_1_1;
+    dense[17] = d2_1_2;
+    dense[18] = d2_1_3;
+    dense[19] = d2_1_4;
+    dense[20] = d2_2_0;
+    dense[21] = d2_2_1;
+    dense[22] = d2_2_2;
+    dense[23] = d2_2_3;
+    dense[24] = d2_2_4;
+    dense[25] = d2_3_0;
+    dense[26] = d2_3_1;
+    dense[27] = d2_3_2;
+    dense[28] = d2_3_3;
+    dense[29] = d2_3_4;
+    dense[30] = d2_4_0;
+    dense[31] = d2_4_1;
+    dense[32] = d2_4_2;
+    dense[33] = d2_4_3;
+    dense[34] = d2_4_4;
+    const T d3_1 = r00 * d2_0_0;
+    const T d3_2 = fma(r01, d2_11, -d3_1);
+    const T d3_3 = r10 * d2_4_0;
+    const T d3_4 = fma(r11, d2_65, -d3_3);
+    const T d3_5 = d3_2 + d3_4;
+    const T d3_6 = r12 * d2_4_0;
+    const T d3_7 = fma(r02, d2_0_0, d3_6);
+    const T d3_0_1 = T(1.2247448713915889) * d3_7;
+    const T d3_8 = r12 * d2_4_1;
+    const T d3_9 = fma(r02, d2_0_1, d3_8);
+    const T d3_0_2 = T(0.96824583655185426) * d3_9;
+    const T d3_10 = r12 * d2_4_2;
+    const T d3_11 = fma(r02, d2_0_2, d3_10);
+    const T d3_0_3 = T(0.9128709291752769) * d3_11;
+    const T d3_12 = r12 * d2_4_3;
+    const T d3_13 = fma(r02, d2_0_3, d3_12);
+    const T d3_0_4 = T(0.96824583655185426) * d3_13;
+    const T d3_14 = r12 * d2_65;
+    const T d3_15 = fma(r02, d2_11, d3_14);
+    const T d3_16 = r00 * d2_11;
+    const T d3_17 = fma(r01, d2_0_0, d3_16);
+    const T d3_18 = r10 * d2_65;
+    const T d3_19 = fma(r11, d2_4_0, d3_18);
+    const T d3_20 = d3_17 + d3_19;
+    const T d3_21 = r20 * d2_0_0;
+    const T d3_22 = fma(r21, d2_11, -d3_21);
+    const T d3_23 = r00 * d2_1_0;
+    const T d3_24 = fma(r01, d2_22, -d3_23);
+    const T d3_25 = r10 * d2_3_0;
+    const T d3_26 = fma(r11, d2_61, -d3_25);
+    const T d3_27 = d3_22 + d3_24;
+    const T d3_28 = d3_26 + d3_27;
+    const T d3_29 = r02 * d2_1_0;
+    const T d3_30 = fma(r22, d2_0_0, d3_29);
+    const T d3_1_1 = fma(r12, d2_3_0, d3_30);
+    const T d3_31 = r02 * d2_1_1;
+    const T d3_32 = fma(r22, d2_0_1, d3_31);
+    const T d3_33 = fma(r12, d2_3_1, d3_32);
+    const T d3_1_2 = T(0.79056941504209488) * d3_33;
+    const T d3_34 = r02 * d2_1_2;
+    const T d3_35 = fma(r22, d2_0_2, d3_34);
+    const T d3_36 = fma(r12, d2_3_2, d3_35);
+    const T d3_1_3 = T(0.7453559924999299) * d3_36;
+    const T d3_37 = r02 * d2_1_3;
+    const T d3_38 = fma(r22, d2_0_3, d3_37);
+    const T d3_39 = fma(r12, d2_3_3, d3_38);
+    const T d3_1_4 = T(0.79056941504209488) * d3_39;
+    const T d3_40 = r02 * d2_22;
+    const T d3_41 = fma(r22, d2_11, d3_40);
+    const T d3_42 = r20 * d2_11;
+    const T d3_43 = fma(r21, d2_0_0, d3_42);
+    const T d3_44 = r00 * d2_22;
+    const T d3_45 = fma(r01, d2_1_0, d3_44);
+    const T d3_46 = r10 * d2_61;
+    const T d3_47 = fma(r11, d2_3_0, d3_46);
+    const T d3_48 = d3_43 + d3_45;
+    const T d3_49 = d3_47 + d3_48;
+    const T d3_50 = r20 * d2_1_0;
+    const T d3_51 = fma(r21, d2_22, -d3_50);
+    const T d3_52 = r10 * d2_2_0;
+    const T d3_53 = fma(r11, d2_50, -d3_52);
+    const T d3_54 = T(0.44721359549995793) * d3_53;
+    const T d3_55 = fma(T(0.51639777949432231), d3_51, d3_54);
+    const T d3_56 = d3_2 - d3_4;
+    const T d3_57 = r22 * d2_1_0;
+    const T d3_58 = r12 * d2_2_0;
+    const T d3_59 = T(1.0954451150103321) * d3_58;
+    const T d3_60 = fma(T(1.2649110640673518), d3_57, d3_59);
+    const T d3_61 = fma(r02, d2_0_0, -d3_6);
+    const T d3_2_1 = fma(T(-0.31622776601683794), d3_61, d3_60);
+    const T d3_62 = r12 * d2_2_1;
+    const T d3_63 = T(0.8660254037844386) * d3_62;
+    const T d3_64 = fma(r22, d2_1_1, d3_63);
+    const T d3_65 = fma(r02, d2_0_1, -d3_8);
+    const T d3_2_2 = fma(T(-0.25), d3_65, d3_64);
+    const T d3_66 = r22 * d2_1_2;
+    const T d3_67 = r12 * d2_2_2;
+    const T d3_68 = T(0.81649658092772603) * d3_67;
+    const T d3_69 = fma(T(0.94280904158206336), d3_66, d3_68);
+    const T d3_70 = fma(r02, d2_0_2, -d3_10);
+    const T d3_2_3 = fma(T(-0.23570226039551584), d3_70, d3_69);
+    const T d3_71 = r12 * d2_2_3;
+    const T d3_72 = T(0.8660254037844386) * d3_71;
+    const T d3_73 = fma(r22, d2_1_3, d3_72);
+    const T d3_74 = fma(r02, d2_0_3, -d3_12);
+    const T d3_2_4 = fma(T(-0.25), d3_74, d3_73);
+    const T d3_75 = r22 * d2_22;
+    const T d3_76 = r12 * d2_50;
+    const T d3_77 = T(1.0954451150103321) * d3_76;
+    const T d3_78 = fma(T(1.2649110640673518), d3_75, d3_77);
+    const T d3_79 = fma(r02, d2_11, -d3_14);
+    const T d3_80 = r20 * d2_22;
+    const T d3_81 = fma(r21, d2_1_0, d3_80);
+    const T d3_82 = r10 * d2_50;
+    const T d3_83 = fma(r11, d2_2_0, d3_82);
+    const T d3_84 = T(0.44721359549995793) * d3_83;
+    const T d3_85 = fma(T(0.51639777949432231), d3_81, d3_84);
+    const T d3_86 = d3_17 - d3_19;
+    const T d3_87 = r20 * d2_2_0;
+    const T d3_88 = fma(r21, d2_50, -d3_87);
+    const T d3_89 = r00 * d2_3_0;
+    const T d3_90 = fma(r01, d2_61, -d3_89);
+    const T d3_91 = r10 * d2_1_0;
+    const T d3_92 = fma(r11, d2_22, -d3_91);
+    const T d3_93 = d3_90 + d3_92;
+    const T d3_94 = T(0.31622776601683794) * d3_93;
+    const T d3_95 = r22 * d2_2_0;
+    const T d3_96 = r02 * d2_3_0;
+    const T d3_97 = fma(r12, d2_1_0, d3_96);
+    const T d3_98 = T(0.7745966692414834) * d3_97;
+    const T d3_3_1 = fma(T(1.3416407864998738), d3_95, -d3_98);
+    const T d3_99 = r22 * d2_2_1;
+    const T d3_100 = r02 * d2_3_1;
+    const T d3_101 = fma(r12, d2_1_1, d3_100);
+    const T d3_102 = T(0.61237243569579447) * d3_101;
+    const T d3_3_2 = fma(T(1.0606601717798212), d3_99, -d3_102);
+    const T d3_103 = r02 * d2_3_2;
+    const T d3_104 = fma(r12, d2_1_2, d3_103);
+    const T d3_105 = T(0.57735026918962573) * d3_104;
+    const T d3_3_3 = fma(r22, d2_2_2, -d3_105);
+    const T d3_106 = r22 * d2_2_3;
+    const T d3_107 = r02 * d2_3_3;
+    const T d3_108 = fma(r12, d2_1_3, d3_107);
+    const T d3_109 = T(0.61237243569579447) * d3_108;
+    const T d3_3_4 = fma(T(1.0606601717798212), d3_106, -d3_109);
+    const T d3_110 = r22 * d2_50;
+    const T d3_111 = r02 * d2_61;
+    const T d3_112 = fma(r12, d2_22, d3_111);
+    const T d3_113 = T(0.7745966692414834) * d3_112;
+    const T d3_114 = r20 * d2_50;
+    const T d3_115 = fma(r21, d2_2_0, d3_114);
+    const T d3_116 = r00 * d2_61;
+    const T d3_117 = fma(r01, d2_3_0, d3_116);
+    const T d3_118 = r10 * d2_22;
+    const T d3_119 = fma(r11, d2_1_0, d3_118);
+    const T d3_120 = d3_117 + d3_119;
+    const T d3_121 = T(0.31622776601683794) * d3_120;
+    const T d3_122 = r20 * d2_3_0;
+    const T d3_123 = fma(r21, d2_61, -d3_122);
+    const T d3_124 = r00 * d2_2_0;
+    const T d3_125 = fma(r01, d2_50, -d3_124);
+    const T d3_126 = r00 * d2_4_0;
+    const T d3_127 = fma(r01, d2_65, -d3_126);
+    const T d3_128 = r10 * d2_0_0;
+    const T d3_129 = fma(r11, d2_11, -d3_128);
+    const T d3_130 = T(0.44721359549995793) * d3_125;
+    const T d3_131 = fma(T(0.51639777949432231), d3_123, d3_130);
+    const T d3_132 = d3_127 + d3_129;
+    const T d3_133 = r22 * d2_3_0;
+    const T d3_134 = r02 * d2_2_0;
+    const T d3_135 = r12 * d2_0_0;
+    const T d3_136 = T(1.0954451150103321) * d3_134;
+    const T d3_137 = fma(T(1.2649110640673518), d3_133, d3_136);
+    const T d3_138 = fma(r02, d2_4_0, d3_135);
+    const T d3_4_1 = fma(T(-0.31622776601683794), d3_138, d3_137);
+    const T d3_139 = r02 * d2_2_1;
+    const T d3_140 = r12 * d2_0_1;
+    const T d3_141 = T(0.8660254037844386) * d3_139;
+    const T d3_142 = fma(r22, d2_3_1, d3_141);
+    const T d3_143 = fma(r02, d2_4_1, d3_140);
+    const T d3_4_2 = fma(T(-0.25), d3_143, d3_142);
+    const T d3_144 = r22 * d2_3_2;
+    const T d3_145 = r02 * d2_2_2;
+    const T d3_146 = r12 * d2_0_2;
+    const T d3_147 = T(0.81649658092772603) * d3_145;
+    const T d3_148 = fma(T(0.94280904158206336), d3_144, d3_147);
+    const T d3_149 = fma(r02, d2_4_2, d3_146);
+    const T d3_4_3 = fma(T(-0.23570226039551584), d3_149, d3_148);
+    const T d3_150 = r02 * d2_2_3;
+    const T d3_151 = r12 * d2_0_3;
+    const T d3_152 = T(0.8660254037844386) * d3_150;
+    const T d3_153 = fma(r22, d2_3_3, d3_152);
+    const T d3_154 = fma(r02, d2_4_3, d3_151);
+    const T d3_4_4 = fma(T(-0.25), d3_154, d3_153);
+    const T d3_155 = r22 * d2_61;
+    const T d3_156 = r02 * d2_50;
+    const T d3_157 = r12 * d2_11;
+    const T d3_158 = T(1.0954451150103321) * d3_156;
+    const T d3_159 = fma(T(1.2649110640673518), d3_155, d3_158);
+    const T d3_160 = fma(r02, d2_65, d3_157);
+    const T d3_161 = r20 * d2_61;
+    const T d3_162 = fma(r21, d2_3_0, d3_161);
+    const T d3_163 = r00 * d2_50;
+    const T d3_164 = fma(r01, d2_2_0, d3_163);
+    const T d3_165 = r00 * d2_65;
+    const T d3_166 = fma(r01, d2_4_0, d3_165);
+    const T d3_167 = r10 * d2_11;
+    const T d3_168 = fma(r11, d2_0_0, d3_167);
+    const T d3_169 = T(0.44721359549995793) * d3_164;
+    const T d3_170 = fma(T(0.51639777949432231), d3_162, d3_169);
+    const T d3_171 = d3_166 + d3_168;
+    const T d3_172 = r20 * d2_4_0;
+    const T d3_173 = fma(r21, d2_65, -d3_172);
+    const T d3_174 = d3_90 + d3_173;
+    const T d3_175 = d3_92 - d3_174;
+    const T d3_5_0 = T(0.40824829046386302) * d3_175;
+    const T d3_176 = fma(r22, d2_4_0, d3_96);
+    const T d3_177 = fma(r22, d2_4_1, d3_100);
+    const T d3_178 = fma(r12, d2_1_1, -d3_177);
+    const T d3_179 = fma(r22, d2_4_2, d3_103);
+    const T d3_180 = fma(r12, d2_1_2, -d3_179);
+    const T d3_181 = fma(r22, d2_4_3, d3_107);
+    const T d3_182 = fma(r12, d2_1_3, -d3_181);
+    const T d3_183 = fma(r22, d2_65, d3_111);
+    const T d3_5_5 = fma(r12, d2_22, -d3_183);
+    const T d3_184 = r20 * d2_65;
+    const T d3_185 = fma(r21, d2_4_0, d3_184);
+    const T d3_186 = d3_117 + d3_185;
+    const T d3_187 = d3_119 - d3_186;
+    const T d3_5_6 = T(0.40824829046386302) * d3_187;
+    const T d3_188 = d3_127 - d3_129;
+    const T d3_189 = fma(r02, d2_4_0, -d3_135);
+    const T d3_6_1 = T(1.2247448713915889) * d3_189;
+    const T d3_190 = fma(r02, d2_4_1, -d3_140);
+    const T d3_6_2 = T(0.96824583655185426) * d3_190;
+    const T d3_191 = fma(r02, d2_4_2, -d3_146);
+    const T d3_6_3 = T(0.9128709291752769) * d3_191;
+    const T d3_192 = fma(r02, d2_4_3, -d3_151);
+    const T d3_6_4 = T(0.96824583655185426) * d3_192;
+    const T d3_193 = fma(r02, d2_65, -d3_157);
+    const T d3_194 = d3_166 - d3_168;
+    const T d3_195 = T(-0.5) * d3_5;
+    const T d3_196 = T(-1.2247448713915889) * d3_15;
+    const T d3_197 = T(-0.5) * d3_20;
+    const T d3_198 = T(-0.40824829046386302) * d3_28;
+    const T d3_199 = fma(-r12, d2_61, -d3_41);
+    const T d3_200 = T(-0.40824829046386302) * d3_49;
+    const T d3_201 = fma(T(0.12909944487358058), d3_56, -d3_55);
+    const T d3_202 = fma(T(0.31622776601683794), d3_79, -d3_78);
+    const T d3_203 = fma(T(0.12909944487358058), d3_86, -d3_85);
+    const T d3_204 = fma(T(-0.54772255750516607), d3_88, d3_94);
+    const T d3_205 = fma(T(-1.3416407864998738), d3_110, d3_113);
+    const T d3_206 = fma(T(-0.54772255750516607), d3_115, d3_121);
+    const T d3_207 = fma(T(0.12909944487358058), d3_132, -d3_131);
+    const T d3_208 = fma(T(0.31622776601683794), d3_160, -d3_159);
+    const T d3_209 = fma(T(0.12909944487358058), d3_171, -d3_170);
+    const T d3_210 = fma(-r12, d2_1_0, d3_176);
+    const T d3_211 = T(-0.79056941504209488) * d3_178;
+    const T d3_212 = T(-0.7453559924999299) * d3_180;
+    const T d3_213 = T(-0.79056941504209488) * d3_182;
+    const T d3_214 = T(-0.5) * d3_188;
+    const T d3_215 = T(-1.2247448713915889) * d3_193;
+    const T d3_216 = T(-0.5) * d3_194;
+    dense[35] = d3_195;
+    dense[36] = d3_0_1;
+    dense[37] = d3_0_2;
+    dense[38] = d3_0_3;
+    dense[39] = d3_0_4;
+    dense[40] = d3_196;
+    dense[41] = d3_197;
+    dense[42] = d3_198;
+    dense[43] = d3_1_1;
+    dense[44] = d3_1_2;
+    dense[45] = d3_1_3;
+    dense[46] = d3_1_4;
+    dense[47] = d3_199;
+    dense[48] = d3_200;
+    dense[49] = d3_201;
+    dense[50] = d3_2_1;
+    dense[51] = d3_2_2;
+    dense[52] = d3_2_3;
+    dense[53] = d3_2_4;
+    dense[54] = d3_202;
+    dense[55] = d3_203;
+    dense[56] = d3_204;
+    dense[57] = d3_3_1;
+    dense[58] = d3_3_2;
+    dense[59] = d3_3_3;
+    dense[60] = d3_3_4;
+    dense[61] = d3_205;
+    dense[62] = d3_206;
+    dense[63] = d3_207;
+    dense[64] = d3_4_1;
+    dense[65] = d3_4_2;
+    dense[66] = d3_4_3;
+    dense[67] = d3_4_4;
+    dense[68] = d3_208;
+    dense[69] = d3_209;
+    dense[70] = d3_5_0;
+    dense[71] = d3_210;
+    dense[72] = d3_211;
+    dense[73] = d3_212;
+    dense[74] = d3_213;
+    dense[75] = d3_5_5;
+    dense[76] = d3_5_6;
+    dense[77] = d3_214;
+    dense[78] = d3_6_1;
+    dense[79] = d3_6_2;
+    dense[80] = d3_6_3;
+    dense[81] = d3_6_4;
+    dense[82] = d3_215;
+    dense[83] = d3_216;
+}
 
 /// Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.
 /// f : 16 values, index l(l+1)+m.
 /// z : 16 values, band l at l*l, lobe d at l*l + d, d = 0 .. 2l in table order.
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 7 and the one after it.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
 template <class V, class T = typename scalar_of<V>::type>
 void factorize(const V* f, V* z) {
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
@@ -67,11 +1566,11 @@ void factorize(const V* f, V* z) {
     const V b2_d0_2 = T(1.3211090992020036) * b2_d0_1;
     const V b2_d1_1 = T(2.2882280821594225) * f[5];
     const V b2_d1_2 = fma(T(1.3211090992020036), f[4], -b2_d1_1);
-    const V b2_d2_1 = fma(T(1.3211090992020036), f[7], -b2_d1_1);
     const V b2_d3_1 = T(0.91529123286376901) * f[8];
     const V b2_d3_2 = fma(T(1.5853309190424043), f[6], b2_d3_1);
     const V b2_d4_1 = f[5] + f[8];
     const V b2_d4_2 = T(1.830582465727538) * b2_d4_1;
+    const V b2_d2_1 = fma(T(1.3211090992020036), f[7], -b2_d1_1);
     const V b2_d4_3 = fma(T(-1.0568872793616029), b2_d0_1, b2_d4_2);
     z[4] = b2_d0_2;
     z[5] = b2_d1_2;
@@ -81,18 +1580,18 @@ void factorize(const V* f, V* z) {
     const V b3_d0_1 = T(1.9339056994263095) * f[14];
     const V b3_d0_2 = fma(T(1.1842705435636682), f[9], b3_d0_1);
     const V b3_d1_1 = T(1.1165409761511313) * f[10];
-    const V b3_d1_2 = fma(T(-1.1842705435636682), f[9], b3_d1_1);
     const V b3_d2_1 = b3_d0_1 - b3_d1_1;
     const V b3_d3_1 = T(1.7297378423966017) * f[14];
     const V b3_d3_2 = fma(T(1.3398491713813576), f[12], b3_d3_1);
     const V b3_d4_1 = T(0.56493001368725082) * f[15];
-    const V b3_d4_2 = fma(T(-1.4586430231889671), f[13], b3_d4_1);
     const V b3_d5_1 = T(0.72932151159448355) * f[13];
     const V b3_d5_2 = fma(T(1.2632219131345794), f[11], b3_d5_1);
     const V b3_d5_3 = b3_d4_1 + b3_d5_2;
     const V b3_d5_4 = -b3_d5_3;
-    const V b3_d6_1 = fma(T(-1.2632219131345794), f[11], b3_d5_1);
-    const V b3_d6_2 = b3_d4_1 + b3_d6_1;
+    const V b3_d6_1 = fma(T(1.2632219131345794), f[11], -b3_d5_1);
+    const V b3_d6_2 = b3_d4_1 - b3_d6_1;
+    const V b3_d1_2 = fma(T(-1.1842705435636682), f[9], b3_d1_1);
+    const V b3_d4_2 = fma(T(-1.4586430231889671), f[13], b3_d4_1);
     z[9] = b3_d0_2;
     z[10] = b3_d1_2;
     z[11] = b3_d2_1;
@@ -107,64 +1606,64 @@ void factorize(const V* f, V* z) {
 /// f : 16 values, index l(l+1)+m.
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., section 4.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
 template <class V, class T = typename scalar_of<V>::type>
 void expand(const V* z, V* f) {
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
     const V b1_m0_1 = z[1] - z[2];
-    const V b1_m0_2 = b1_m0_1 - z[3];
-    const V b1_m0_3 = T(0.21850968611841581) * b1_m0_2;
+    const V b1_m0_2 = z[3] - b1_m0_1;
     const V b1_m1_1 = z[1] + z[2];
     const V b1_m1_2 = z[3] + b1_m1_1;
     const V b1_m1_3 = T(0.21850968611841581) * b1_m1_2;
     const V b1_m2_1 = z[3] + b1_m0_1;
     const V b1_m2_2 = T(0.37846987830302403) * b1_m2_1;
+    const V b1_m0_3 = T(-0.21850968611841581) * b1_m0_2;
     f[1] = b1_m0_3;
     f[2] = b1_m1_3;
     f[3] = b1_m2_2;
     const V b2_m0_1 = z[4] + z[5];
-    const V b2_m0_2 = b2_m0_1 - z[6];
-    const V b2_m0_3 = T(0.37846987830302403) * b2_m0_2;
+    const V b2_m0_2 = z[6] - b2_m0_1;
     const V b2_m1_1 = z[4] - z[5];
-    const V b2_m1_2 = b2_m1_1 - z[6];
-    const V b2_m1_3 = T(0.21850968611841581) * b2_m1_2;
+    const V b2_m1_2 = z[6] - b2_m1_1;
     const V b2_m2_1 = z[6] + b2_m0_1;
     const V b2_m2_2 = T(0.63078313050503998) * z[7];
-    const V b2_m2_3 = fma(T(-0.126156626101008), b2_m2_1, b2_m2_2);
-    const V b2_m2_4 = fma(T(-0.31539156525251999), z[8], b2_m2_3);
+    const V b2_m2_3 = fma(T(0.126156626101008), b2_m2_1, -b2_m2_2);
     const V b2_m3_1 = z[6] + b2_m1_1;
     const V b2_m3_2 = T(0.37846987830302403) * b2_m3_1;
     const V b2_m4_1 = T(0.54627421529603959) * z[8];
     const V b2_m4_2 = fma(T(0.21850968611841581), b2_m2_1, b2_m4_1);
+    const V b2_m0_3 = T(-0.37846987830302403) * b2_m0_2;
+    const V b2_m1_3 = T(-0.21850968611841581) * b2_m1_2;
+    const V b2_m2_4 = fma(T(-0.31539156525251999), z[8], -b2_m2_3);
     f[4] = b2_m0_3;
     f[5] = b2_m1_3;
     f[6] = b2_m2_4;
     f[7] = b2_m3_2;
     f[8] = b2_m4_2;
     const V b3_m0_1 = z[9] - z[10];
-    const V b3_m0_2 = b3_m0_1 - z[11];
-    const V b3_m0_3 = T(0.42220082456447522) * b3_m0_2;
+    const V b3_m0_2 = z[11] - b3_m0_1;
     const V b3_m1_1 = z[9] + z[10];
-    const V b3_m1_2 = b3_m1_1 - z[11];
-    const V b3_m1_3 = T(0.44781159910813845) * b3_m1_2;
+    const V b3_m1_2 = z[11] - b3_m1_1;
     const V b3_m2_1 = z[14] + z[15];
     const V b3_m3_1 = z[11] + b3_m1_1;
     const V b3_m3_2 = T(0.7463526651802308) * z[12];
-    const V b3_m3_3 = fma(T(-0.33377905890622728), b3_m3_1, b3_m3_2);
     const V b3_m4_1 = z[14] - z[15];
     const V b3_m4_2 = T(0.22852289973223286) * b3_m4_1;
     const V b3_m5_1 = T(0.25854414729132053) * b3_m3_1;
     const V b3_m6_1 = z[13] - z[14];
     const V b3_m6_2 = z[15] + b3_m6_1;
     const V b3_m6_3 = T(0.59004358992664352) * b3_m6_2;
-    const V t_1 = T(-0.3958132730291955) * b3_m2_1;
-    const V t_2 = fma(T(-0.45704579946446572), z[13], -b3_m4_2);
+    const V b3_m0_3 = T(-0.42220082456447522) * b3_m0_2;
+    const V b3_m1_3 = T(-0.44781159910813845) * b3_m1_2;
+    const V b3_m2_2 = T(-0.3958132730291955) * b3_m2_1;
+    const V b3_m3_3 = fma(T(-0.33377905890622728), b3_m3_1, b3_m3_2);
+    const V b3_m4_3 = fma(T(-0.45704579946446572), z[13], -b3_m4_2);
     f[9] = b3_m0_3;
     f[10] = b3_m1_3;
-    f[11] = t_1;
+    f[11] = b3_m2_2;
     f[12] = b3_m3_3;
-    f[13] = t_2;
+    f[13] = b3_m4_3;
     f[14] = b3_m5_1;
     f[15] = b3_m6_3;
 }
@@ -175,7 +1674,7 @@ void expand(const V* z, V* f) {
 /// out : 16 values, index l(l+1)+m.
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 11.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
 template <class V, class T = typename scalar_of<V>::type>
 void resample(const V* samples, V* out) {
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
@@ -185,20 +1684,20 @@ void resample(const V* samples, V* out) {
     const V b1_m1_1 = samples[1] + samples[2];
     const V b1_m1_2 = T(2.2882280821594225) * b1_m1_1;
     const V b1_m2_1 = samples[2] - samples[3];
-    const V t_1 = T(-1.3211090992020036) * b1_m2_1;
+    const V b1_m2_2 = T(-1.3211090992020036) * b1_m2_1;
     out[1] = b1_m0_2;
     out[2] = b1_m1_2;
-    out[3] = t_1;
+    out[3] = b1_m2_2;
     const V b2_m0_1 = samples[4] + samples[5];
     const V b2_m0_2 = T(1.0568872793616029) * samples[8];
     const V b2_m0_3 = fma(T(1.3211090992020036), b2_m0_1, -b2_m0_2);
     const V b2_m1_1 = samples[5] + samples[6];
     const V b2_m1_2 = T(1.830582465727538) * samples[8];
-    const V b2_m1_3 = fma(T(-2.2882280821594225), b2_m1_1, b2_m1_2);
     const V b2_m2_1 = T(1.5853309190424043) * samples[7];
     const V b2_m3_1 = samples[4] + samples[6];
-    const V b2_m3_2 = fma(T(1.3211090992020036), b2_m3_1, -b2_m0_2);
     const V b2_m4_1 = fma(T(0.91529123286376901), samples[7], b2_m1_2);
+    const V b2_m1_3 = fma(T(-2.2882280821594225), b2_m1_1, b2_m1_2);
+    const V b2_m3_2 = fma(T(1.3211090992020036), b2_m3_1, -b2_m0_2);
     out[4] = b2_m0_3;
     out[5] = b2_m1_3;
     out[6] = b2_m2_1;
@@ -218,13 +1717,13 @@ void resample(const V* samples, V* out) {
     const V b3_m6_1 = samples[13] - samples[14];
     const V b3_m6_2 = samples[15] + b3_m6_1;
     const V b3_m6_3 = T(0.56493001368725082) * b3_m6_2;
-    const V t_2 = T(-1.2632219131345794) * b3_m2_1;
-    const V t_3 = fma(T(-1.4586430231889671), samples[13], -b3_m4_2);
+    const V b3_m2_2 = T(-1.2632219131345794) * b3_m2_1;
+    const V b3_m4_3 = fma(T(-1.4586430231889671), samples[13], -b3_m4_2);
     out[9] = b3_m0_2;
     out[10] = b3_m1_2;
-    out[11] = t_2;
+    out[11] = b3_m2_2;
     out[12] = b3_m3_1;
-    out[13] = t_3;
+    out[13] = b3_m4_3;
     out[14] = b3_m5_3;
     out[15] = b3_m6_3;
 }
@@ -232,9 +1731,9 @@ void resample(const V* samples, V* out) {
 /// Turns the lobe directions of the table: R times each.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
 /// directions : 21 values, unit vectors x, y, z, in table order.
-/// directions may be R; they must not overlap in part.
+/// directions must not overlap R.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 9.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
 void lobes(const T* R, T* directions) {
     const T r00 = R[0];
@@ -261,12 +1760,12 @@ void lobes(const T* R, T* directions) {
     const T d1_1 = r01 - r02;
     const T d1_2 = r11 - r12;
     const T d1_3 = r21 - r22;
-    const T t_1 = fma(T(-0.44721359549995793), d1_1, -d0_1);
-    const T t_2 = fma(T(-0.44721359549995793), d1_2, -d0_3);
-    const T t_3 = fma(T(-0.44721359549995793), d1_3, -d0_5);
-    directions[3] = t_1;
-    directions[4] = t_2;
-    directions[5] = t_3;
+    const T d1_4 = fma(T(-0.44721359549995793), d1_1, -d0_1);
+    const T d1_5 = fma(T(-0.44721359549995793), d1_2, -d0_3);
+    const T d1_6 = fma(T(-0.44721359549995793), d1_3, -d0_5);
+    directions[3] = d1_4;
+    directions[4] = d1_5;
+    directions[5] = d1_6;
     const T x_d2 = fma(T(-0.44721359549995793), d1_1, d0_1);
     const T y_d2 = fma(T(-0.44721359549995793), d1_2, d0_3);
     const T z_d2 = fma(T(-0.44721359549995793), d1_3, d0_5);
@@ -288,12 +1787,12 @@ void lobes(const T* R, T* directions) {
     directions[15] = x_d5;
     directions[16] = y_d5;
     directions[17] = z_d5;
-    const T x_d6 = fma(T(-0.5), r00, d5_1);
-    const T y_d6 = fma(T(-0.5), r10, d5_2);
-    const T z_d6 = fma(T(-0.5), r20, d5_3);
-    directions[18] = x_d6;
-    directions[19] = y_d6;
-    directions[20] = z_d6;
+    const T d6_1 = fma(T(-0.5), r00, d5_1);
+    const T d6_2 = fma(T(-0.5), r10, d5_2);
+    const T d6_3 = fma(T(-0.5), r20, d5_3);
+    directions[18] = d6_1;
+    directions[19] = d6_2;
+    directions[20] = d6_3;
 }
 
 /// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
@@ -302,9 +1801,9 @@ void lobes(const T* R, T* directions) {
 /// f : 16 values, index l(l+1)+m.
 /// out : 16 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
-/// Error: at most the banner's bound and 3/2 |R R^T - I|_F, times |f|.
+/// Error: at most (kRotateZhfBound... + kRotateZhfExcess |R R^T - I|_F) |f|.
 /// Cost: see the banner.
-/// Source: Nowrouzezahrai et al., eq. 10.
+/// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 template <class T, class V = T>
 void rotate_zhf(const T* R, const V* f, V* out) {
     const T r00 = R[0];
@@ -402,17 +1901,17 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b2_d0 = T(1.4433756729740643) * b2_d0_1;
     const V b2_d1_1 = T(2.5) * f[5];
     const V b2_d1 = fma(T(1.4433756729740643), f[4], -b2_d1_1);
-    const V b2_d2 = fma(T(1.4433756729740643), f[7], -b2_d1_1);
+    const V b2_d2_1 = fma(T(-1.4433756729740643), f[7], b2_d1_1);
     const V b2_d3 = fma(T(1.7320508075688772), f[6], f[8]);
     const V b2_d4_1 = f[5] + f[8];
     const V b2_d4_2 = T(2.0) * b2_d4_1;
-    const V b2_d4 = fma(T(-1.1547005383792515), b2_d0_1, b2_d4_2);
+    const V b2_d4_3 = fma(T(1.1547005383792515), b2_d0_1, -b2_d4_2);
     const T q2_0_d0 = fma(z_d0, z_d0, T(-0.33333333333333331));
     const V b2_d0_2 = z_d0 * b2_d0;
     const T b2_d0_3 = x_d0 * x_d0;
-    const T c2_d0 = fma(-y_d0, y_d0, b2_d0_3);
-    const T b2_d0_4 = x_d0 + x_d0;
-    const T s2_d0 = y_d0 * b2_d0_4;
+    const T b2_d0_4 = fma(y_d0, y_d0, -b2_d0_3);
+    const T b2_d0_5 = x_d0 + x_d0;
+    const T s2_d0 = y_d0 * b2_d0_5;
     const T q2_0_d1 = fma(d1_6, d1_6, T(-0.33333333333333331));
     const V b2_d1_2 = q2_0_d1 * b2_d1;
     const V b2_d1_3 = fma(q2_0_d0, b2_d0, b2_d1_2);
@@ -422,53 +1921,53 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b2_d1_7 = d1_4 * b2_d1_4;
     const V b2_d1_8 = fma(y_d0, b2_d0_2, b2_d1_7);
     const T b2_d1_9 = d1_2 * d1_2;
-    const T c2_d1 = fma(-d1_4, d1_4, b2_d1_9);
-    const T b2_d1_10 = d1_2 + d1_2;
-    const T s2_d1 = d1_4 * b2_d1_10;
-    const V b2_d1_11 = c2_d1 * b2_d1;
-    const V b2_d1_12 = fma(c2_d0, b2_d0, b2_d1_11);
-    const V b2_d1_13 = s2_d1 * b2_d1;
-    const V b2_d1_14 = fma(s2_d0, b2_d0, b2_d1_13);
+    const T b2_d1_10 = fma(d1_4, d1_4, -b2_d1_9);
+    const T b2_d1_11 = d1_2 + d1_2;
+    const T s2_d1 = d1_4 * b2_d1_11;
+    const V b2_d1_12 = b2_d1_10 * b2_d1;
+    const V b2_d1_13 = fma(b2_d0_4, b2_d0, b2_d1_12);
+    const V b2_d1_14 = s2_d1 * b2_d1;
+    const V b2_d1_15 = fma(s2_d0, b2_d0, b2_d1_14);
     const T q2_0_d2 = fma(z_d2, z_d2, T(-0.33333333333333331));
-    const V b2_d2_1 = fma(q2_0_d2, b2_d2, b2_d1_3);
-    const V b2_d2_2 = z_d2 * b2_d2;
-    const V b2_d2_3 = fma(x_d2, b2_d2_2, b2_d1_6);
-    const V b2_d2_4 = fma(y_d2, b2_d2_2, b2_d1_8);
-    const T b2_d2_5 = x_d2 * x_d2;
-    const T c2_d2 = fma(-y_d2, y_d2, b2_d2_5);
-    const T b2_d2_6 = x_d2 + x_d2;
-    const T s2_d2 = y_d2 * b2_d2_6;
-    const V b2_d2_7 = fma(c2_d2, b2_d2, b2_d1_12);
-    const V b2_d2_8 = fma(s2_d2, b2_d2, b2_d1_14);
+    const V b2_d2_2 = fma(-q2_0_d2, b2_d2_1, b2_d1_3);
+    const V b2_d2_3 = z_d2 * b2_d2_1;
+    const V b2_d2_4 = fma(-x_d2, b2_d2_3, b2_d1_6);
+    const V b2_d2_5 = fma(-y_d2, b2_d2_3, b2_d1_8);
+    const T b2_d2_6 = x_d2 * x_d2;
+    const T b2_d2_7 = fma(y_d2, y_d2, -b2_d2_6);
+    const T b2_d2_8 = x_d2 + x_d2;
+    const T s2_d2 = y_d2 * b2_d2_8;
+    const V b2_d2_9 = fma(-b2_d2_7, b2_d2_1, b2_d1_13);
+    const V b2_d2_10 = fma(-s2_d2, b2_d2_1, b2_d1_15);
     const T q2_0_d3 = fma(u22, u22, T(-0.33333333333333331));
-    const V b2_d3_1 = fma(q2_0_d3, b2_d3, b2_d2_1);
+    const V b2_d3_1 = fma(q2_0_d3, b2_d3, b2_d2_2);
     const V b2_d3_2 = u22 * b2_d3;
-    const V b2_d3_3 = fma(u02, b2_d3_2, b2_d2_3);
-    const V b2_d3_4 = fma(u12, b2_d3_2, b2_d2_4);
+    const V b2_d3_3 = fma(u02, b2_d3_2, b2_d2_4);
+    const V b2_d3_4 = fma(u12, b2_d3_2, b2_d2_5);
     const T b2_d3_5 = u02 * u02;
-    const T c2_d3 = fma(-u12, u12, b2_d3_5);
-    const T b2_d3_6 = u02 + u02;
-    const T s2_d3 = u12 * b2_d3_6;
-    const V b2_d3_7 = fma(c2_d3, b2_d3, b2_d2_7);
-    const V b2_d3_8 = fma(s2_d3, b2_d3, b2_d2_8);
+    const T b2_d3_6 = fma(u12, u12, -b2_d3_5);
+    const T b2_d3_7 = u02 + u02;
+    const T s2_d3 = u12 * b2_d3_7;
+    const V b2_d3_8 = fma(b2_d3_6, b2_d3, b2_d2_9);
+    const V b2_d3_9 = fma(s2_d3, b2_d3, b2_d2_10);
     const T q2_0_d4 = fma(u20, u20, T(-0.33333333333333331));
-    const V b2_d4_3 = fma(q2_0_d4, b2_d4, b2_d3_1);
-    const V b2_d4_4 = u20 * b2_d4;
-    const V b2_d4_5 = fma(u00, b2_d4_4, b2_d3_3);
-    const V b2_d4_6 = fma(u10, b2_d4_4, b2_d3_4);
-    const T b2_d4_7 = u00 * u00;
-    const T c2_d4 = fma(-u10, u10, b2_d4_7);
-    const T b2_d4_8 = u00 + u00;
-    const T s2_d4 = u10 * b2_d4_8;
-    const V b2_d4_9 = fma(c2_d4, b2_d4, b2_d3_7);
-    const V b2_d4_10 = fma(s2_d4, b2_d4, b2_d3_8);
-    const V b2_1 = T(0.5) * b2_d4_10;
-    const V b2_2 = T(0.8660254037844386) * b2_d4_3;
-    const V b2_3 = T(0.5) * b2_d4_9;
+    const V b2_d4_4 = fma(-q2_0_d4, b2_d4_3, b2_d3_1);
+    const V b2_d4_5 = u20 * b2_d4_3;
+    const V b2_d4_6 = fma(-u00, b2_d4_5, b2_d3_3);
+    const V b2_d4_7 = fma(-u10, b2_d4_5, b2_d3_4);
+    const T b2_d4_8 = u00 * u00;
+    const T b2_d4_9 = fma(u10, u10, -b2_d4_8);
+    const T b2_d4_10 = u00 + u00;
+    const T s2_d4 = u10 * b2_d4_10;
+    const V b2_d4_11 = fma(-b2_d4_9, b2_d4_3, b2_d3_8);
+    const V b2_d4_12 = fma(-s2_d4, b2_d4_3, b2_d3_9);
+    const V b2_1 = T(0.5) * b2_d4_12;
+    const V b2_2 = T(0.8660254037844386) * b2_d4_4;
+    const V b2_3 = T(-0.5) * b2_d4_11;
     out[4] = b2_1;
-    out[5] = b2_d4_6;
+    out[5] = b2_d4_7;
     out[6] = b2_2;
-    out[7] = b2_d4_5;
+    out[7] = b2_d4_6;
     out[8] = b2_3;
     const T d5_1 = T(0.8660254037844386) * u01;
     const T x_d5 = fma(T(0.5), u00, d5_1);
@@ -476,13 +1975,13 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const T y_d5 = fma(T(0.5), u10, d5_2);
     const T d5_3 = T(0.8660254037844386) * u21;
     const T z_d5 = fma(T(0.5), u20, d5_3);
-    const T x_d6 = fma(T(-0.5), u00, d5_1);
-    const T y_d6 = fma(T(-0.5), u10, d5_2);
-    const T z_d6 = fma(T(-0.5), u20, d5_3);
+    const T d6_1 = fma(T(0.5), u00, -d5_1);
+    const T d6_2 = fma(T(0.5), u10, -d5_2);
+    const T d6_3 = fma(T(0.5), u20, -d5_3);
     const V b3_d0_1 = T(3.4232659844072884) * f[14];
     const V b3_d0 = fma(T(2.0963137289060527), f[9], b3_d0_1);
     const V b3_d1_1 = T(1.976423537605237) * f[10];
-    const V b3_d1 = fma(T(-2.0963137289060527), f[9], b3_d1_1);
+    const V b3_d1_2 = fma(T(2.0963137289060527), f[9], -b3_d1_1);
     const V b3_d2 = b3_d0_1 - b3_d1_1;
     const V b3_d3_1 = T(3.0618621784789726) * f[14];
     const V b3_d3 = fma(T(2.3717082451262845), f[12], b3_d3_1);
@@ -496,49 +1995,49 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const T q3_1_d0 = q2_0_d0 + T(0.13333333333333333);
     const V b3_d0_3 = q3_1_d0 * b3_d0;
     const V b3_d0_4 = z_d0 * b3_d0;
-    const T b3_d0_5 = x_d0 * c2_d0;
-    const T c3_d0 = fma(-y_d0, s2_d0, b3_d0_5);
-    const T b3_d0_6 = x_d0 * s2_d0;
-    const T s3_d0 = fma(y_d0, c2_d0, b3_d0_6);
-    const T b3_d1_2 = q2_0_d1 + T(-0.26666666666666666);
-    const T b3_d1_3 = d1_6 * b3_d1_2;
-    const V b3_d1_4 = b3_d1_3 * b3_d1;
-    const V b3_d1_5 = fma(q3_0_d0, b3_d0, -b3_d1_4);
+    const T b3_d0_5 = x_d0 * b2_d0_4;
+    const T b3_d0_6 = fma(y_d0, s2_d0, b3_d0_5);
+    const T b3_d0_7 = x_d0 * s2_d0;
+    const T b3_d0_8 = fma(y_d0, b2_d0_4, -b3_d0_7);
+    const T b3_d1_3 = q2_0_d1 + T(-0.26666666666666666);
+    const T b3_d1_4 = d1_6 * b3_d1_3;
+    const V b3_d1_5 = b3_d1_4 * b3_d1_2;
+    const V b3_d1_6 = fma(q3_0_d0, b3_d0, b3_d1_5);
     const T q3_1_d1 = q2_0_d1 + T(0.13333333333333333);
-    const V b3_d1_6 = q3_1_d1 * b3_d1;
-    const V b3_d1_7 = d1_2 * b3_d1_6;
-    const V b3_d1_8 = fma(x_d0, b3_d0_3, -b3_d1_7);
-    const V b3_d1_9 = d1_4 * b3_d1_6;
-    const V b3_d1_10 = fma(y_d0, b3_d0_3, -b3_d1_9);
-    const V b3_d1_11 = d1_6 * b3_d1;
-    const V b3_d1_12 = c2_d1 * b3_d1_11;
-    const V b3_d1_13 = fma(c2_d0, b3_d0_4, -b3_d1_12);
-    const V b3_d1_14 = s2_d1 * b3_d1_11;
-    const V b3_d1_15 = fma(s2_d0, b3_d0_4, -b3_d1_14);
-    const T b3_d1_16 = d1_2 * c2_d1;
-    const T c3_d1 = fma(d1_4, s2_d1, -b3_d1_16);
-    const T b3_d1_17 = d1_2 * s2_d1;
-    const T b3_d1_18 = fma(d1_4, c2_d1, b3_d1_17);
-    const V b3_d1_19 = c3_d1 * b3_d1;
-    const V b3_d1_20 = fma(c3_d0, b3_d0, b3_d1_19);
-    const V b3_d1_21 = b3_d1_18 * b3_d1;
-    const V b3_d1_22 = fma(s3_d0, b3_d0, -b3_d1_21);
+    const V b3_d1_7 = q3_1_d1 * b3_d1_2;
+    const V b3_d1_8 = d1_2 * b3_d1_7;
+    const V b3_d1_9 = fma(x_d0, b3_d0_3, b3_d1_8);
+    const V b3_d1_10 = d1_4 * b3_d1_7;
+    const V b3_d1_11 = fma(y_d0, b3_d0_3, b3_d1_10);
+    const V b3_d1_12 = d1_6 * b3_d1_2;
+    const V b3_d1_13 = b2_d1_10 * b3_d1_12;
+    const V b3_d1_14 = fma(b2_d0_4, b3_d0_4, b3_d1_13);
+    const V b3_d1_15 = s2_d1 * b3_d1_12;
+    const V b3_d1_16 = fma(s2_d0, b3_d0_4, b3_d1_15);
+    const T b3_d1_17 = d1_2 * b2_d1_10;
+    const T c3_d1 = fma(d1_4, s2_d1, b3_d1_17);
+    const T b3_d1_18 = d1_2 * s2_d1;
+    const T s3_d1 = fma(d1_4, b2_d1_10, -b3_d1_18);
+    const V b3_d1_19 = c3_d1 * b3_d1_2;
+    const V b3_d1_20 = fma(b3_d0_6, b3_d0, b3_d1_19);
+    const V b3_d1_21 = s3_d1 * b3_d1_2;
+    const V b3_d1_22 = fma(b3_d0_8, b3_d0, b3_d1_21);
     const T b3_d2_1 = q2_0_d2 + T(-0.26666666666666666);
     const T q3_0_d2 = z_d2 * b3_d2_1;
-    const V b3_d2_2 = fma(q3_0_d2, b3_d2, b3_d1_5);
+    const V b3_d2_2 = fma(q3_0_d2, b3_d2, b3_d1_6);
     const T q3_1_d2 = q2_0_d2 + T(0.13333333333333333);
     const V b3_d2_3 = q3_1_d2 * b3_d2;
-    const V b3_d2_4 = fma(x_d2, b3_d2_3, b3_d1_8);
-    const V b3_d2_5 = fma(y_d2, b3_d2_3, b3_d1_10);
+    const V b3_d2_4 = fma(x_d2, b3_d2_3, b3_d1_9);
+    const V b3_d2_5 = fma(y_d2, b3_d2_3, b3_d1_11);
     const V b3_d2_6 = z_d2 * b3_d2;
-    const V b3_d2_7 = fma(c2_d2, b3_d2_6, b3_d1_13);
-    const V b3_d2_8 = fma(s2_d2, b3_d2_6, b3_d1_15);
-    const T b3_d2_9 = x_d2 * c2_d2;
-    const T c3_d2 = fma(-y_d2, s2_d2, b3_d2_9);
-    const T b3_d2_10 = x_d2 * s2_d2;
-    const T s3_d2 = fma(y_d2, c2_d2, b3_d2_10);
-    const V b3_d2_11 = fma(c3_d2, b3_d2, b3_d1_20);
-    const V b3_d2_12 = fma(s3_d2, b3_d2, b3_d1_22);
+    const V b3_d2_7 = fma(b2_d2_7, b3_d2_6, b3_d1_14);
+    const V b3_d2_8 = fma(s2_d2, b3_d2_6, b3_d1_16);
+    const T b3_d2_9 = x_d2 * b2_d2_7;
+    const T b3_d2_10 = fma(y_d2, s2_d2, b3_d2_9);
+    const T b3_d2_11 = x_d2 * s2_d2;
+    const T b3_d2_12 = fma(y_d2, b2_d2_7, -b3_d2_11);
+    const V b3_d2_13 = fma(b3_d2_10, b3_d2, b3_d1_20);
+    const V b3_d2_14 = fma(b3_d2_12, b3_d2, b3_d1_22);
     const T b3_d3_2 = q2_0_d3 + T(-0.26666666666666666);
     const T q3_0_d3 = u22 * b3_d3_2;
     const V b3_d3_3 = fma(q3_0_d3, b3_d3, b3_d2_2);
@@ -547,14 +2046,14 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b3_d3_5 = fma(u02, b3_d3_4, b3_d2_4);
     const V b3_d3_6 = fma(u12, b3_d3_4, b3_d2_5);
     const V b3_d3_7 = u22 * b3_d3;
-    const V b3_d3_8 = fma(c2_d3, b3_d3_7, b3_d2_7);
+    const V b3_d3_8 = fma(b2_d3_6, b3_d3_7, b3_d2_7);
     const V b3_d3_9 = fma(s2_d3, b3_d3_7, b3_d2_8);
-    const T b3_d3_10 = u02 * c2_d3;
-    const T c3_d3 = fma(-u12, s2_d3, b3_d3_10);
-    const T b3_d3_11 = u02 * s2_d3;
-    const T s3_d3 = fma(u12, c2_d3, b3_d3_11);
-    const V b3_d3_12 = fma(c3_d3, b3_d3, b3_d2_11);
-    const V b3_d3_13 = fma(s3_d3, b3_d3, b3_d2_12);
+    const T b3_d3_10 = u02 * b2_d3_6;
+    const T b3_d3_11 = fma(u12, s2_d3, b3_d3_10);
+    const T b3_d3_12 = u02 * s2_d3;
+    const T b3_d3_13 = fma(u12, b2_d3_6, -b3_d3_12);
+    const V b3_d3_14 = fma(b3_d3_11, b3_d3, b3_d2_13);
+    const V b3_d3_15 = fma(b3_d3_13, b3_d3, b3_d2_14);
     const T b3_d4_1 = q2_0_d4 + T(-0.26666666666666666);
     const T q3_0_d4 = u20 * b3_d4_1;
     const V b3_d4_2 = fma(q3_0_d4, b3_d4, b3_d3_3);
@@ -563,14 +2062,14 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b3_d4_4 = fma(u00, b3_d4_3, b3_d3_5);
     const V b3_d4_5 = fma(u10, b3_d4_3, b3_d3_6);
     const V b3_d4_6 = u20 * b3_d4;
-    const V b3_d4_7 = fma(c2_d4, b3_d4_6, b3_d3_8);
+    const V b3_d4_7 = fma(b2_d4_9, b3_d4_6, b3_d3_8);
     const V b3_d4_8 = fma(s2_d4, b3_d4_6, b3_d3_9);
-    const T b3_d4_9 = u00 * c2_d4;
-    const T c3_d4 = fma(-u10, s2_d4, b3_d4_9);
-    const T b3_d4_10 = u00 * s2_d4;
-    const T s3_d4 = fma(u10, c2_d4, b3_d4_10);
-    const V b3_d4_11 = fma(c3_d4, b3_d4, b3_d3_12);
-    const V b3_d4_12 = fma(s3_d4, b3_d4, b3_d3_13);
+    const T b3_d4_9 = u00 * b2_d4_9;
+    const T b3_d4_10 = fma(u10, s2_d4, b3_d4_9);
+    const T b3_d4_11 = u00 * s2_d4;
+    const T b3_d4_12 = fma(u10, b2_d4_9, -b3_d4_11);
+    const V b3_d4_13 = fma(b3_d4_10, b3_d4, b3_d3_14);
+    const V b3_d4_14 = fma(b3_d4_12, b3_d4, b3_d3_15);
     const T b3_d5_3 = fma(z_d5, z_d5, T(-0.59999999999999998));
     const T q3_0_d5 = z_d5 * b3_d5_3;
     const V b3_d5_4 = fma(-q3_0_d5, b3_d5_2, b3_d4_2);
@@ -579,58 +2078,52 @@ void rotate_zhf(const T* R, const V* f, V* out) {
     const V b3_d5_6 = fma(-x_d5, b3_d5_5, b3_d4_4);
     const V b3_d5_7 = fma(-y_d5, b3_d5_5, b3_d4_5);
     const T b3_d5_8 = x_d5 * x_d5;
-    const T c2_d5 = fma(-y_d5, y_d5, b3_d5_8);
-    const T b3_d5_9 = x_d5 + x_d5;
-    const T s2_d5 = y_d5 * b3_d5_9;
-    const V b3_d5_10 = z_d5 * b3_d5_2;
-    const V b3_d5_11 = fma(-c2_d5, b3_d5_10, b3_d4_7);
-    const V b3_d5_12 = fma(-s2_d5, b3_d5_10, b3_d4_8);
-    const T b3_d5_13 = x_d5 * c2_d5;
-    const T c3_d5 = fma(-y_d5, s2_d5, b3_d5_13);
-    const T b3_d5_14 = x_d5 * s2_d5;
-    const T s3_d5 = fma(y_d5, c2_d5, b3_d5_14);
-    const V b3_d5_15 = fma(-c3_d5, b3_d5_2, b3_d4_11);
-    const V b3_d5_16 = fma(-s3_d5, b3_d5_2, b3_d4_12);
-    const T b3_d6_2 = fma(z_d6, z_d6, T(-0.59999999999999998));
-    const T q3_0_d6 = z_d6 * b3_d6_2;
-    const V b3_d6_3 = fma(q3_0_d6, b3_d6, b3_d5_4);
+    const T b3_d5_9 = fma(y_d5, y_d5, -b3_d5_8);
+    const T b3_d5_10 = x_d5 + x_d5;
+    const T s2_d5 = y_d5 * b3_d5_10;
+    const V b3_d5_11 = z_d5 * b3_d5_2;
+    const V b3_d5_12 = fma(-b3_d5_9, b3_d5_11, b3_d4_7);
+    const V b3_d5_13 = fma(-s2_d5, b3_d5_11, b3_d4_8);
+    const T b3_d5_14 = x_d5 * b3_d5_9;
+    const T b3_d5_15 = fma(y_d5, s2_d5, b3_d5_14);
+    const T b3_d5_16 = x_d5 * s2_d5;
+    const T b3_d5_17 = fma(y_d5, b3_d5_9, -b3_d5_16);
+    const V b3_d5_18 = fma(-b3_d5_15, b3_d5_2, b3_d4_13);
+    const V b3_d5_19 = fma(-b3_d5_17, b3_d5_2, b3_d4_14);
+    const T b3_d6_2 = fma(d6_3, d6_3, T(-0.59999999999999998));
+    const T b3_d6_3 = d6_3 * b3_d6_2;
+    const V b3_d6_4 = fma(-b3_d6_3, b3_d6, b3_d5_4);
     const T q3_1_d6 = T(0.40000000000000002) + b3_d6_2;
-    const V b3_d6_4 = q3_1_d6 * b3_d6;
-    const V b3_d6_5 = fma(x_d6, b3_d6_4, b3_d5_6);
-    const V b3_d6_6 = fma(y_d6, b3_d6_4, b3_d5_7);
-    const T b3_d6_7 = x_d6 * x_d6;
-    const T c2_d6 = fma(-y_d6, y_d6, b3_d6_7);
-    const T b3_d6_8 = x_d6 + x_d6;
-    const T s2_d6 = y_d6 * b3_d6_8;
-    const V b3_d6_9 = z_d6 * b3_d6;
-    const V b3_d6_10 = fma(c2_d6, b3_d6_9, b3_d5_11);
-    const V b3_d6_11 = fma(s2_d6, b3_d6_9, b3_d5_12);
-    const T b3_d6_12 = x_d6 * c2_d6;
-    const T c3_d6 = fma(-y_d6, s2_d6, b3_d6_12);
-    const T b3_d6_13 = x_d6 * s2_d6;
-    const T s3_d6 = fma(y_d6, c2_d6, b3_d6_13);
-    const V b3_d6_14 = fma(c3_d6, b3_d6, b3_d5_15);
-    const V b3_d6_15 = fma(s3_d6, b3_d6, b3_d5_16);
-    const V b3_1 = T(0.33333333333333331) * b3_d6_15;
-    const V b3_2 = T(0.81649658092772603) * b3_d6_11;
-    const V b3_3 = T(1.2909944487358056) * b3_d6_6;
-    const V b3_4 = T(1.0540925533894598) * b3_d6_3;
-    const V b3_5 = T(1.2909944487358056) * b3_d6_5;
-    const V b3_6 = T(0.81649658092772603) * b3_d6_10;
-    const V b3_7 = T(0.33333333333333331) * b3_d6_14;
-    out[9] = b3_1;
-    out[10] = b3_2;
-    out[11] = b3_3;
-    out[12] = b3_4;
-    out[13] = b3_5;
+    const V b3_d6_5 = q3_1_d6 * b3_d6;
+    const V b3_d6_6 = fma(-d6_1, b3_d6_5, b3_d5_6);
+    const V b3_d6_7 = fma(-d6_2, b3_d6_5, b3_d5_7);
+    const T b3_d6_8 = d6_1 * d6_1;
+    const T b3_d6_9 = fma(d6_2, d6_2, -b3_d6_8);
+    const T b3_d6_10 = d6_1 + d6_1;
+    const T s2_d6 = d6_2 * b3_d6_10;
+    const V b3_d6_11 = d6_3 * b3_d6;
+    const V b3_d6_12 = fma(-b3_d6_9, b3_d6_11, b3_d5_12);
+    const V b3_d6_13 = fma(-s2_d6, b3_d6_11, b3_d5_13);
+    const T b3_d6_14 = d6_1 * b3_d6_9;
+    const T c3_d6 = fma(d6_2, s2_d6, b3_d6_14);
+    const T b3_d6_15 = d6_1 * s2_d6;
+    const T s3_d6 = fma(d6_2, b3_d6_9, -b3_d6_15);
+    const V b3_d6_16 = fma(-c3_d6, b3_d6, b3_d5_18);
+    const V b3_d6_17 = fma(-s3_d6, b3_d6, b3_d5_19);
+    const V b3_1 = T(0.81649658092772603) * b3_d6_13;
+    const V b3_2 = T(1.2909944487358056) * b3_d6_7;
+    const V b3_3 = T(1.0540925533894598) * b3_d6_4;
+    const V b3_4 = T(1.2909944487358056) * b3_d6_6;
+    const V b3_5 = T(-0.33333333333333331) * b3_d6_17;
+    const V b3_6 = T(-0.81649658092772603) * b3_d6_12;
+    const V b3_7 = T(-0.33333333333333331) * b3_d6_16;
+    out[9] = b3_5;
+    out[10] = b3_1;
+    out[11] = b3_2;
+    out[12] = b3_3;
+    out[13] = b3_4;
     out[14] = b3_6;
     out[15] = b3_7;
-}
-
-/// The cheapest exact rotation of one vector that this order has: rotate_zhf.
-template <class T, class V = T>
-void rotate(const T* R, const V* f, V* out) {
-    rotate_zhf(R, f, out);
 }
 
 }  // namespace zonal::order4

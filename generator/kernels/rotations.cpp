@@ -1,0 +1,121 @@
+#include "kernels/rotations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "graph/passes.hpp"
+#include "kernels/dense_blocks.hpp"
+#include "kernels/planner.hpp"
+
+namespace zonal::kernels {
+
+namespace {
+
+using graph::Kernel;
+using graph::Kind;
+using graph::Value;
+
+const char* const kTurnsTheFunction = "Turns the function, not the frame: f'(w) = f(R^T w).";
+const char* const kDenseSource = "Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998";
+
+std::vector<std::string> sources_of(const Plan& plan) {
+    std::vector<std::string> sources;
+    const auto add = [&](const char* source) {
+        if (std::find(sources.begin(), sources.end(), source) == sources.end()) sources.emplace_back(source);
+    };
+    for (const BandPlan& band : plan) {
+        switch (band.method) {
+            case BandMethod::contraction:
+            case BandMethod::proper_contraction:
+                add("low bands as tensors, contracted with the rows of R");
+                break;
+            case BandMethod::zxzxz:
+                add("Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles");
+                break;
+            case BandMethod::dense:
+                add(kDenseSource);
+                break;
+        }
+    }
+    return sources;
+}
+
+Kernel planned(const std::string& name, const std::string& purpose, int order, const Plan& plan) {
+    Kernel kernel = build_plan(order, plan);
+    kernel.name = name;
+    kernel.summary =
+        fmt::format("{}\n{}\nBands are independent: a NaN stays in its band.", purpose, kTurnsTheFunction);
+    kernel.sources = sources_of(plan);
+    kernel.has_bound = true;
+    return kernel;
+}
+
+Kernel build_blocks(int order) {
+    Kernel kernel;
+    kernel.name = "blocks";
+    kernel.summary =
+        "The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.\n"
+        "Turns the function, not the frame.";
+    kernel.sources = {kDenseSource};
+    kernel.inputs = {rotation_array()};
+    kernel.output = {"dense", Kind::rotation, order * (4 * order * order - 1) / 3,
+                     "row-major (2l+1) x (2l+1) for l = 0, 1, ..."};
+    kernel.has_bound = true;
+    const auto all = dense_blocks(kernel, rotation_rows(kernel), order);
+    int index = 0;
+    for (int l = 0; l < order; ++l)
+        for (const Value& entry : all[l]) kernel.store(index++, entry, l);
+    return graph::optimize(kernel);
+}
+
+bool is_same_work(const Kernel& a, const Kernel& b) {
+    const auto weight_of = [](const Kernel& kernel, int vectors) { return weight(kernel, {vectors, false}); };
+    return weight_of(a, 0) == weight_of(b, 0) && weight_of(a, 1) == weight_of(b, 1);
+}
+
+}  // namespace
+
+OrderPlans plan_order(int order) {
+    constexpr int kMany = 64;
+    // Up to order 3 the cheapest kernel takes mirrors at no cost.
+    return {cheapest_plan(order, {1, order <= 3}), cheapest_plan(order, {3, false}),
+            cheapest_plan(order, {kMany, false})};
+}
+
+std::vector<Kernel> build_rotations(int order) {
+    const OrderPlans plans = plan_order(order);
+    Kernel one = planned("rotate", "The cheapest exact rotation of one vector.", order, plans.one);
+    const Kernel channels = planned(
+        "rotate_channels", "The cheapest exact rotation of three vectors at once.", order, plans.channels);
+    graph::Halves halves = graph::split_by_kind(planned("apply", "", order, plans.many));
+    halves.prepare.name = "prepare";
+    halves.prepare.summary =
+        "What `apply` needs to know of a rotation: prepare once, apply to many vectors.\n"
+        "Turns the function, not the frame.";
+    halves.prepare.output.name = "scalars";
+    halves.prepare.output.comment = "for `apply`";
+    halves.prepare.has_bound = false;
+    halves.apply.summary =
+        "Rotates a vector by what `prepare` made of the rotation: the cheapest for many vectors.\n"
+        "Bands are independent: a NaN stays in its band.";
+    halves.apply.inputs[0].name = "scalars";
+    halves.apply.inputs[0].comment = "by `prepare`";
+
+    Plan dense(order - 1, {BandMethod::dense, {}});
+    if (order > 1) dense[0] = {BandMethod::contraction, {}};
+    std::vector<Kernel> kernels;
+    if (!is_same_work(one, channels)) {
+        one.for_channels = channels.name;
+        kernels.push_back(channels);
+    }
+    kernels.push_back(one);
+    kernels.push_back(halves.prepare);
+    kernels.push_back(halves.apply);
+    kernels.push_back(
+        planned("rotate_accurate", "The most accurate exact rotation, mirrors included.", order, dense));
+    kernels.push_back(build_blocks(order));
+    return kernels;
+}
+
+}  // namespace zonal::kernels

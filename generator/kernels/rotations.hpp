@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "graph/kernel.hpp"
+#include "kernels/planner.hpp"
+
+namespace zonal::kernels {
+
+/// What the kernels of an order plan for: one vector, three of one rotation, many of one rotation.
+struct OrderPlans {
+    Plan one, channels, many;
+};
+OrderPlans plan_order(int order);
+
+/// The kernels of an order that need no lobe table, optimized:
+///   rotate            the cheapest for one vector; for a signal value of several channels it calls
+///   rotate_channels rotate_channels   the cheapest for three vectors of one rotation (where that is another
+///   kernel) prepare, apply    the cheapest for many vectors of one rotation, in its two halves
+///   rotate_accurate   dense blocks, built and applied
+///   blocks            dense blocks
+std::vector<graph::Kernel> build_rotations(int order);
+
+}  // namespace zonal::kernels

@@ -1,0 +1,65 @@
+#include "order_kernels.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "kernels/registry.hpp"
+#include "tables_folder.hpp"
+#include "user_error.hpp"
+
+namespace zonal {
+
+namespace {
+
+/// Published error bounds from the committed file that `zonal-measure-bounds` writes
+/// (generator/tables/README.md): those of kernels that need no table, and of the very table that is used.
+std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path, int order,
+                                               const std::string& table) {
+    std::ifstream stream(path);
+    if (!stream) return {};
+    std::map<std::string, emit::Bound> bounds;
+    try {
+        const auto file = nlohmann::json::parse(stream);
+        for (const auto& entry : file.at("bounds"))
+            if (entry.at("order") == order && (entry.at("table") == "" || entry.at("table") == table))
+                bounds[entry.at("kernel")] = {entry.at("float"), entry.at("double"), entry.at("excess")};
+    } catch (const nlohmann::json::exception& error) {
+        throw UserError(
+            fmt::format("{}: {}; write it again with zonal-measure-bounds", path.string(), error.what()));
+    }
+    return bounds;
+}
+
+std::optional<OrderLobes> load_lobes(int order, const std::filesystem::path& table_path) {
+    const bool is_own = table_path.empty();
+    const std::filesystem::path path = is_own ? tables_folder() / lobe_table_name(order) : table_path;
+    if (is_own && !std::filesystem::exists(path)) return std::nullopt;
+    OrderLobes lobes;
+    lobes.table = read_lobe_table(path, order);
+    lobes.table_name =
+        is_own ? ("generator/tables" / lobe_table_name(order)).string() : path.filename().string();
+    lobes.set = {order, lobes.table.directions, exact::factorize_order(order, lobes.table.directions)};
+    return lobes;
+}
+
+}  // namespace
+
+void check_order(int order, int smallest) {
+    if (order < smallest || order > kLargestOrder)
+        throw UserError(fmt::format("--order: found {}, wanted {} … {}", order, smallest, kLargestOrder));
+}
+
+OrderKernels build_order_kernels(int order, const std::filesystem::path& table_path) {
+    check_order(order);
+    OrderKernels result;
+    result.order = order;
+    result.lobes = load_lobes(order, table_path);
+    result.kernels = kernels::build_order(order, result.lobes ? &result.lobes->set : nullptr);
+    result.bounds = read_bounds(tables_folder() / "bounds.json", order,
+                                result.lobes ? result.lobes->table.sha256.substr(0, kHashDigits) : "");
+    return result;
+}
+
+}  // namespace zonal

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emit/unit.hpp"
+#include "graph/kernel.hpp"
+#include "kernels/lobes.hpp"
+#include "lobe_table.hpp"
+
+namespace zonal {
+
+/// Order 1 is a constant: nothing turns.
+inline constexpr int kSmallestOrder = 2;
+/// Band 2 is the first whose lobes can be chosen.
+inline constexpr int kSmallestSearchedOrder = 3;
+inline constexpr int kLargestOrder = 20;
+/// Digits of a table's sha256 that banners and the file of bounds name it by.
+inline constexpr int kHashDigits = 16;
+
+/// Throws `UserError` unless `smallest` <= order <= kLargestOrder.
+void check_order(int order, int smallest = kSmallestOrder);
+
+/// The lobes of an order as a table gives them.
+struct OrderLobes {
+    LobeTable table;
+    std::string table_name;  ///< how a banner names the table: no path of a machine
+    kernels::LobeSet set;
+};
+
+/// The kernels of an order, as `emit` and `stats` need them.
+struct OrderKernels {
+    int order = 0;
+    std::optional<OrderLobes> lobes;  ///< none where the project has no table of this order
+    std::vector<graph::Kernel> kernels;
+    std::map<std::string, emit::Bound> bounds;  ///< those published for these very kernels
+};
+
+/// Loads the table of an order and builds every kernel. `table_path` empty: the project's own table, or none
+/// where it has none.
+OrderKernels build_order_kernels(int order, const std::filesystem::path& table_path);
+
+}  // namespace zonal

@@ -1,0 +1,41 @@
+// Every kernel of every order, 2 … 20, run from its graph: float and double against the oracle, within the
+// published bounds and the contract. The full set of rotations is what zonal-measure-bounds ran; here are
+// fewer at high orders.
+#include <gtest/gtest.h>
+
+#include "order_kernels.hpp"
+#include "support/graph_kernels.hpp"
+
+namespace zonal {
+namespace {
+
+template <class T>
+void expect_within_bounds(int order) {
+    constexpr bool kIsFloat = std::is_same_v<T, float>;
+    const OrderKernels kernels = build_order_kernels(order, {});
+    std::map<std::string, double> excess;
+    for (const auto& [name, bound] : kernels.bounds) excess[name] = std::stod(bound.excess_text);
+    const int random_count = order <= 10 ? 500 : 100;
+    const auto problems = accuracy::problems<T>(order, random_count, 30, 7 * order);
+    const auto contestants = graph_contestants<T>(order, kernels.kernels, excess);
+    ASSERT_GE(contestants.size(), 4u);
+    const auto worst = accuracy::worst_errors<T>(order, problems, contestants);
+    for (std::size_t k = 0; k < contestants.size(); ++k) {
+        const std::string& name = contestants[k].name;
+        ASSERT_TRUE(kernels.bounds.contains(name))
+            << name << ", order " << order << ": no bound is published";
+        const emit::Bound& bound = kernels.bounds.at(name);
+        EXPECT_LE(worst[k].error, std::stod(kIsFloat ? bound.float_text : bound.double_text))
+            << name << ", order " << order << ", " << worst[k].name;
+        EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))
+            << name << ", order " << order << ", " << worst[k].name_of_rotations;
+    }
+}
+
+class GraphAccuracy : public testing::TestWithParam<int> {};
+TEST_P(GraphAccuracy, float_is_within_bounds) { expect_within_bounds<float>(GetParam()); }
+TEST_P(GraphAccuracy, double_is_within_bounds) { expect_within_bounds<double>(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(orders, GraphAccuracy, testing::Range(2, 21));
+
+}  // namespace
+}  // namespace zonal

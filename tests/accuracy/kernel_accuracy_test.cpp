@@ -1,0 +1,75 @@
+// Every compiled kernel that turns a signal against the pointwise oracle, float and double: the numbers the
+// project promises. Orders above those compiled: graph_accuracy_test.
+#include <gtest/gtest.h>
+
+#include "support/accuracy.hpp"
+#include "support/banner.hpp"
+#include "support/kernels.hpp"
+
+namespace zonal {
+namespace {
+
+constexpr std::uint64_t kSeed = 20240611;
+
+/// Within the published bound, what R excuses being what the banner says; for rotations within the contract too.
+template <class T>
+void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>& kernels) {
+    constexpr bool kIsFloat = std::is_same_v<T, float>;
+    const int random_count = order <= 6 ? 10000 : 1000, thinning = order <= 6 ? 1 : 10;
+    const auto problems = accuracy::problems<T>(order, random_count, thinning, kSeed + order);
+    const auto worst = accuracy::worst_errors<T>(order, problems, kernels);
+    for (std::size_t k = 0; k < kernels.size(); ++k) {
+        const std::string& name = kernels[k].name;
+        const banner::Bound bound = banner::bound(order, name);
+        EXPECT_LE(worst[k].error, kIsFloat ? bound.float_bound : bound.double_bound)
+            << name << ", order " << order << ", " << worst[k].name;
+        EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))
+            << name << ", order " << order << ", " << worst[k].name_of_rotations;
+    }
+}
+
+template <int N, class T>
+std::vector<accuracy::Contestant<T>> compiled_kernels() {
+    std::vector<accuracy::Contestant<T>> kernels;
+    const auto add = [&](const std::string& name, auto rotate) {
+        const accuracy::Contestant<T> kernel{name, rotate, banner::bound(N, name).excess};
+        const bool takes_mirrors =
+            name == "rotate_accurate" || name == "rotate_zhf" || (name == "rotate" && N <= 3);
+        kernels.push_back(takes_mirrors ? kernel : accuracy::with_mirrors(N, kernel));
+    };
+    add("rotate", [](const T* R, const T* f, T* out) { Order<N>::rotate(R, f, out); });
+    add("apply", [](const T* R, const T* f, T* out) {
+        T scalars[Order<N>::kScalars];
+        Order<N>::prepare(R, scalars);
+        Order<N>::apply(scalars, f, out);
+    });
+    add("rotate_accurate", [](const T* R, const T* f, T* out) { Order<N>::rotate_accurate(R, f, out); });
+    return kernels;
+}
+
+#define ZONAL_ACCURACY_TESTS(N)                                         \
+    TEST(KernelAccuracy, order_##N##_float_is_within_its_bounds) {      \
+        expect_within_bounds<float>(N, compiled_kernels<N, float>());   \
+    }                                                                   \
+    TEST(KernelAccuracy, order_##N##_double_is_within_its_bounds) {     \
+        expect_within_bounds<double>(N, compiled_kernels<N, double>()); \
+    }
+ZONAL_FOR_EACH_ORDER(ZONAL_ACCURACY_TESTS)
+
+template <int N, class T>
+std::vector<accuracy::Contestant<T>> lobe_kernels() {
+    return {{"rotate_zhf", [](const T* R, const T* f, T* out) { LobeOrder<N>::rotate_zhf(R, f, out); },
+             banner::bound(N, "rotate_zhf").excess}};
+}
+
+#define ZONAL_LOBE_ACCURACY_TESTS(N)                                      \
+    TEST(KernelAccuracy, lobes_of_order_##N##_float_are_within_bounds) {  \
+        expect_within_bounds<float>(N, lobe_kernels<N, float>());         \
+    }                                                                     \
+    TEST(KernelAccuracy, lobes_of_order_##N##_double_are_within_bounds) { \
+        expect_within_bounds<double>(N, lobe_kernels<N, double>());       \
+    }
+ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_LOBE_ACCURACY_TESTS)
+
+}  // namespace
+}  // namespace zonal

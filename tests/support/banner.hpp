@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace zonal::banner {
+
+/// The text of an order's committed header.
+std::string header_text(int order);
+
+/// What the banner publishes for a kernel.
+struct Bound {
+    double float_bound = 0;
+    double double_bound = 0;
+    double excess = 0;  ///< for each unit of ‖R Rᵀ - I‖_F
+};
+/// Throws std::runtime_error naming order and kernel where it publishes none.
+Bound bound(int order, const std::string& kernel);
+
+/// What the banner says of one vector, and of every further one of the same rotation: "12 mul 3 add 4 fma 0
+/// other".
+struct Cost {
+    std::string one, further;
+};
+Cost cost(int order, const std::string& kernel);
+
+}  // namespace zonal::banner
