@@ -28,6 +28,7 @@ class Pack {
   public:
     Pack() = default;
     explicit HWY_INLINE Pack(Lanes<T> values) : lanes(values) {}
+    explicit HWY_INLINE Pack(int value) : lanes(hn::Set(Tag<T>(), static_cast<T>(value))) {}
     explicit HWY_INLINE Pack(float value) : lanes(hn::Set(Tag<T>(), static_cast<T>(value))) {}
     explicit HWY_INLINE Pack(double value) : lanes(hn::Set(Tag<T>(), static_cast<T>(value))) {}
 
