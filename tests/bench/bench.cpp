@@ -46,6 +46,7 @@ struct Options {
     double seconds = 0.004;
     std::size_t l2_kib = 512;
     std::size_t memory_mib = 512;
+    std::size_t streamed_mib = batch::kStreamedBytes >> 20;
     std::string json;
 };
 
@@ -342,6 +343,7 @@ void run(const Options& options) {
     if (!batch::choose_target(options.target))
         throw std::runtime_error(fmt::format("--target: found {}, wanted one of: {}", options.target,
                                              fmt::join(batch::runnable_targets(), ", ")));
+    batch::set_streamed_bytes(options.streamed_mib << 20);
     fmt::print(
         "Time of one vector (all channels) on one core; ratio to memcpy of (bytes read + written) / 2, "
         "rotations\n"
@@ -388,6 +390,9 @@ int main(int argc, char** argv) {
     app.add_option("--l2-kib", options.l2_kib, "bytes of a workload in cache")->capture_default_str();
     app.add_option("--memory-mib", options.memory_mib,
                    "bytes of a workload in memory: several times the last cache")
+        ->capture_default_str();
+    app.add_option("--streamed-mib", options.streamed_mib,
+                   "batches larger than this are written past the caches")
         ->capture_default_str();
     app.add_option("--json", options.json, "also write the results to this file");
     CLI11_PARSE(app, argc, argv);

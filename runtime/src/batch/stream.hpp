@@ -2,7 +2,9 @@
 
 // Writes one long run of values past the caches, whatever its alignment: values are staged in memory that
 // stays in cache, at their distance from a cache line, and leave it as whole lines. The ends of the run,
-// which share a line with foreign values, are written by ordinary stores.
+// which share a line with foreign values, are written by ordinary stores. What was staged leaves one step
+// later: then it is read back without waiting for the stores that put it there, and writing to memory goes on
+// beside reading instead of in bursts between.
 
 #include <hwy/cache_control.h>
 
@@ -13,57 +15,65 @@
 namespace zonal::batch {
 namespace {
 
-/// kRoom: the most values that are staged at once.
+/// kRoom: the most values that are staged in one step.
 template <class T, std::size_t kRoom>
 class Stream {
   public:
     explicit Stream(T* out)
-        : foreign_(reinterpret_cast<std::uintptr_t>(out) % 64 / sizeof(T)),
+        : foreign_(reinterpret_cast<std::uintptr_t>(out) % kLineBytes / sizeof(T)),
           line_(out - foreign_),
           fill_(foreign_) {}
 
     /// Where the next values, kRoom at most, are to be put.
-    T* room() { return stage_ + fill_; }
+    HWY_INLINE T* room() { return stage_[current_] + fill_; }
 
     /// `count` values have been put there.
     HWY_INLINE void advance(std::size_t count) {
+        write_waiting();
         fill_ += count;
-        if (fill_ >= kEnough) flush();
+        const std::size_t whole = fill_ - fill_ % kLine;
+        waiting_ = whole;
+        waiting_line_ = line_;
+        line_ += whole;
+        fill_ -= whole;
+        const T* rest = stage_[current_] + whole;
+        current_ ^= 1;
+        for (std::size_t j = 0; j < kLine; j += kLanes<T>)
+            hn::Store(hn::Load(Tag<T>(), rest + j), Tag<T>(), stage_[current_] + j);
     }
 
     void finish() {
-        flush();
-        for (std::size_t i = foreign_; i < fill_; ++i) line_[i] = stage_[i];
+        write_waiting();
+        for (std::size_t i = foreign_; i < fill_; ++i) line_[i] = stage_[current_][i];
         hwy::FlushStream();
     }
 
   private:
-    static constexpr std::size_t kLine = 64 / sizeof(T);
-    // Many lines at a time: the first are read back long after they were staged, and writing to memory comes
-    // in bursts.
-    static constexpr std::size_t kEnough = 4096 / sizeof(T);
+    static constexpr std::size_t kLineBytes = 64;
+    static constexpr std::size_t kLine = kLineBytes / sizeof(T);
 
-    void flush() {
+    /// Whole lines in the stage that is not current.
+    HWY_INLINE void write_waiting() {
+        const T* stage = stage_[current_ ^ 1];
         std::size_t i = 0;
-        if (foreign_ > 0 && fill_ >= kLine) {
-            for (std::size_t j = foreign_; j < kLine; ++j) line_[j] = stage_[j];
+        if (HWY_UNLIKELY(foreign_ > 0 && waiting_ > 0)) {
+            for (std::size_t j = foreign_; j < kLine; ++j) waiting_line_[j] = stage[j];
             foreign_ = 0;
             i = kLine;
         }
-        for (; i + kLine <= fill_; i += kLine)
+        for (; i < waiting_; i += kLine)
             for (std::size_t j = 0; j < kLine; j += kLanes<T>)
-                hn::Stream(hn::Load(Tag<T>(), stage_ + i + j), Tag<T>(), line_ + i + j);
-        if (i == 0) return;
-        for (std::size_t j = 0; j < kLine; j += kLanes<T>)
-            hn::Store(hn::Load(Tag<T>(), stage_ + i + j), Tag<T>(), stage_ + j);
-        line_ += i;
-        fill_ -= i;
+                hn::Stream(hn::Load(Tag<T>(), stage + i + j), Tag<T>(), waiting_line_ + i + j);
+        waiting_ = 0;
     }
 
-    alignas(64) T stage_[kEnough + kRoom + 2 * kLine];
-    std::size_t foreign_;  ///< values of the first line that are not of the run; 0 from the second line on
-    T* line_;              ///< the place of stage_[0]
-    std::size_t fill_;
+    alignas(kLineBytes) T stage_[2][(kRoom + 3 * kLine) / kLine * kLine];
+    std::size_t foreign_;  ///< values of the first line that are not of the run; 0 once it is written
+    T* line_;              ///< the place of the current stage's first value
+    std::size_t fill_;     ///< values in the current stage
+    int current_ = 0;
+    T* waiting_line_ = nullptr;  ///< the same of the other stage
+    std::size_t waiting_ = 0;    ///< values that wait there
 };
 
 }  // namespace
