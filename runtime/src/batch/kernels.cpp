@@ -13,7 +13,7 @@
 #include "stream.hpp"
 #include "transpose.hpp"
 
-/// Everything called in the function's body becomes part of it.
+/// Everything that the function's body calls becomes part of it.
 #if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
 #define ZONAL_FLATTEN __attribute__((flatten))
 #else
@@ -79,6 +79,8 @@ HWY_INLINE void load_rotations(const T* rows, std::size_t stride, P* R) {
 template <int N, RotationForm kForm>
 class Sign {
   public:
+    static constexpr bool kMayMirror = N >= kFirstProperOrder && kForm == RotationForm::matrix;
+
     /// Multiplies R by the signs.
     HWY_INLINE void take_from(P* R) {
         if constexpr (kMayMirror) {
@@ -87,10 +89,9 @@ class Sign {
                 (R[1] * fma(R[5], R[6], -(R[3] * R[8])) + R[2] * fma(R[3], R[7], -(R[4] * R[6])));
             const auto is_mirror = hn::Lt(determinant.lanes, hn::Zero(Tag<T>()));
             has_mirror_ = !hn::AllFalse(Tag<T>(), is_mirror);
-            if (HWY_UNLIKELY(has_mirror_)) {
-                sign_.lanes = hn::IfThenElse(is_mirror, P(-1).lanes, P(1).lanes);
-                for (int i = 0; i < 9; ++i) R[i] = sign_ * R[i];
-            }
+            if (HWY_LIKELY(!has_mirror_)) return;
+            sign_.lanes = hn::IfThenElse(is_mirror, P(-1).lanes, P(1).lanes);
+            for (int i = 0; i < 9; ++i) R[i] = sign_ * R[i];
         }
     }
 
@@ -104,8 +105,6 @@ class Sign {
     }
 
   private:
-    static constexpr bool kMayMirror = N >= kFirstProperOrder && kForm == RotationForm::matrix;
-
     P sign_;
     bool has_mirror_ = false;
 };
@@ -128,6 +127,8 @@ template <int N, RotationForm kForm>
 class Once {
   public:
     static constexpr bool kHasOwn = true;
+    /// A copy of its own in every round of a loop stays in registers.
+    static constexpr bool kIsLocal = !Sign<N, kForm>::kMayMirror && N <= kLargestInlined;
 
     HWY_INLINE void load(const T* rows, std::size_t stride) {
         load_rotations<kForm>(rows, stride, R_);
@@ -151,6 +152,7 @@ template <int N, RotationForm kForm, bool kIsOwn>
 class Prepared {
   public:
     static constexpr bool kHasOwn = kIsOwn;
+    static constexpr bool kIsLocal = false;
 
     HWY_INLINE void load(const T* rows, std::size_t stride) {
         P R[9];
@@ -214,27 +216,36 @@ class Batch {
         T* out = job_.out;
         std::size_t k = 0;
         for (; k + kWidth <= job_.count; k += kWidth) {
+            T* const to = writer != nullptr ? writer->room() : out;
+            if constexpr (Turn::kIsLocal) {
+                Turn local;
+                local.load(rotations, job_.rotation_stride);
+                turn_row(local, in, to);
+            } else {
+                if constexpr (Turn::kHasOwn) turn.load(rotations, job_.rotation_stride);
+                if (HWY_LIKELY(job_.channels == 1))
+                    turn_row(turn, in, to);
+                else
+                    turn_channels(turn, in, to);
+            }
             if constexpr (Turn::kHasOwn) {
-                turn.load(rotations, job_.rotation_stride);
                 fetch_ahead(rotations, kWidth * job_.rotation_stride);
                 rotations += kWidth * job_.rotation_stride;
             }
             fetch_ahead(in, kWidth * stride);
-            T* const to = writer != nullptr ? writer->room() : out;
-            if (HWY_UNLIKELY(job_.channels > 1)) {
-                turn_channels(turn, in, to);
-            } else {
-                P f[kCoefficients];
-                if constexpr (kFirst == 1) f[0].lanes = hn::Zero(Tag<T>());
-                read_columns<kColumns>(in, stride, f + kFirst);
-                turn(f);
-                write_columns<kColumns>(f + kFirst, to, stride);
-            }
             if (writer != nullptr) writer->advance(kWidth * stride);
             in += kWidth * stride;
             out += kWidth * stride;
         }
         return k;
+    }
+
+    HWY_INLINE void turn_row(const Turn& turn, const T* in, T* out) const {
+        P f[kCoefficients];
+        if constexpr (kFirst == 1) f[0].lanes = hn::Zero(Tag<T>());
+        read_columns<kColumns>(in, job_.stride, f + kFirst);
+        turn(f);
+        write_columns<kColumns>(f + kFirst, out, job_.stride);
     }
 
     HWY_NOINLINE void turn_channels(const Turn& turn, const T* in, T* out) const {
