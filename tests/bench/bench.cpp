@@ -101,7 +101,8 @@ struct Data {
 template <class T>
 Data<T> lay_out(std::vector<double>& memory, std::size_t bytes, int order, const Workload& workload) {
     const std::size_t length = workload.channels * order * order;
-    const std::size_t count = bytes / sizeof(T) / (2 * length + workload.rotation_length);
+    // Whole packs; and half of all bytes are whole values, else the copy would make denormal numbers.
+    const std::size_t count = bytes / sizeof(T) / (2 * length + workload.rotation_length) / 16 * 16;
     const std::size_t shared = workload.rotation_length == 0 ? 9 : 0;
     memory.resize(std::max(memory.size(), bytes / sizeof(double) + 64));
     const std::span<T> values(reinterpret_cast<T*>(memory.data()),
