@@ -7,8 +7,8 @@
 #include <map>
 #include <memory>
 
-#include "order_kernels.hpp"
 #include "emit/cpp.hpp"
+#include "order_kernels.hpp"
 #include "output_file.hpp"
 #include "user_error.hpp"
 
@@ -44,6 +44,11 @@ const Language& find_language(const std::string& name) {
     throw UserError(fmt::format("--language: found '{}', wanted one of: {}", name, known));
 }
 
+const graph::Kernel& kernel_named(const OrderKernels& order, const std::string& name) {
+    return *std::find_if(order.kernels.begin(), order.kernels.end(),
+                         [&](const graph::Kernel& kernel) { return kernel.name == name; });
+}
+
 emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", options.order);
@@ -61,9 +66,12 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
                 unit.sources.push_back(source);
     unit.bounds = order.bounds;
     unit.constants = {{"kHasLobes", order.lobes ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
-    for (const graph::Kernel& kernel : order.kernels)
-        if (kernel.name == "prepare")
-            unit.constants.push_back({"kScalars", kernel.output.size, "Values that `prepare` makes"});
+    const graph::Kernel& prepare = kernel_named(order, "prepare");
+    unit.constants.push_back({"kScalars", prepare.output.size, "Values that `prepare` makes"});
+    const bool takes_mirrors =
+        !kernel_named(order, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
+    unit.constants.push_back({"kTakesMirrors", takes_mirrors ? 1 : 0,
+                              "1 where `rotate` of one channel and `prepare` take det R = -1, else 0"});
     return unit;
 }
 

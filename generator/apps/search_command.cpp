@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "order_kernels.hpp"
 #include "exact/angles.hpp"
 #include "lobe_table.hpp"
+#include "order_kernels.hpp"
 #include "output_file.hpp"
 #include "search/progress_text.hpp"
 #include "search/search.hpp"

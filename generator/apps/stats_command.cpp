@@ -5,12 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "order_kernels.hpp"
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
 #include "kernels/lobes.hpp"
 #include "kernels/planner.hpp"
 #include "kernels/rotations.hpp"
+#include "order_kernels.hpp"
 
 namespace zonal {
 

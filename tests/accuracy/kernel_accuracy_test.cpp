@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20240611;
 
-/// Within the published bound, what R excuses being what the banner says; for rotations within the contract too.
+/// Within the published bound, what R excuses being what the banner says; for rotations within the contract
+/// too.
 template <class T>
 void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>& kernels) {
     constexpr bool kIsFloat = std::is_same_v<T, float>;
@@ -33,8 +34,7 @@ std::vector<accuracy::Contestant<T>> compiled_kernels() {
     std::vector<accuracy::Contestant<T>> kernels;
     const auto add = [&](const std::string& name, auto rotate) {
         const accuracy::Contestant<T> kernel{name, rotate, banner::bound(N, name).excess};
-        const bool takes_mirrors =
-            name == "rotate_accurate" || name == "rotate_zhf" || (name == "rotate" && N <= 3);
+        const bool takes_mirrors = name == "rotate_accurate" || Order<N>::kTakesMirrors;
         kernels.push_back(takes_mirrors ? kernel : accuracy::with_mirrors(N, kernel));
     };
     add("rotate", [](const T* R, const T* f, T* out) { Order<N>::rotate(R, f, out); });

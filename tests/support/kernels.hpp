@@ -11,30 +11,31 @@ struct Order;
 template <int N>
 struct LobeOrder;
 
-#define ZONAL_TEST_ORDER(N)                                           \
-    template <>                                                       \
-    struct Order<N> {                                                 \
-        static constexpr int kScalars = order##N::kScalars;           \
-        template <class T, class V>                                   \
-        static void rotate(const T* R, const V* f, V* out) {          \
-            order##N::rotate(R, f, out);                              \
-        }                                                             \
-        template <class T, class V>                                   \
-        static void rotate_accurate(const T* R, const V* f, V* out) { \
-            order##N::rotate_accurate(R, f, out);                     \
-        }                                                             \
-        template <class T>                                            \
-        static void blocks(const T* R, T* dense) {                    \
-            order##N::blocks(R, dense);                               \
-        }                                                             \
-        template <class T>                                            \
-        static void prepare(const T* R, T* scalars) {                 \
-            order##N::prepare(R, scalars);                            \
-        }                                                             \
-        template <class T, class V>                                   \
-        static void apply(const T* scalars, const V* f, V* out) {     \
-            order##N::apply(scalars, f, out);                         \
-        }                                                             \
+#define ZONAL_TEST_ORDER(N)                                                 \
+    template <>                                                             \
+    struct Order<N> {                                                       \
+        static constexpr int kScalars = order##N::kScalars;                 \
+        static constexpr bool kTakesMirrors = order##N::kTakesMirrors != 0; \
+        template <class T, class V>                                         \
+        static void rotate(const T* R, const V* f, V* out) {                \
+            order##N::rotate(R, f, out);                                    \
+        }                                                                   \
+        template <class T, class V>                                         \
+        static void rotate_accurate(const T* R, const V* f, V* out) {       \
+            order##N::rotate_accurate(R, f, out);                           \
+        }                                                                   \
+        template <class T>                                                  \
+        static void blocks(const T* R, T* dense) {                          \
+            order##N::blocks(R, dense);                                     \
+        }                                                                   \
+        template <class T>                                                  \
+        static void prepare(const T* R, T* scalars) {                       \
+            order##N::prepare(R, scalars);                                  \
+        }                                                                   \
+        template <class T, class V>                                         \
+        static void apply(const T* scalars, const V* f, V* out) {           \
+            order##N::apply(scalars, f, out);                               \
+        }                                                                   \
     };
 ZONAL_FOR_EACH_ORDER(ZONAL_TEST_ORDER)
 #undef ZONAL_TEST_ORDER

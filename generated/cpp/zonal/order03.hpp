@@ -30,6 +30,7 @@
 //           rotate_accurate none published: see generator/tables/README.md
 //           blocks none published: see generator/tables/README.md
 //           rotate_zhf none published: see generator/tables/README.md
+//           times |f|, the excess times |R R^T - I|_F |f| added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 //           Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it
@@ -81,6 +82,9 @@ inline constexpr int kHasLobes = 1;
 
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 34;
+
+/// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
+inline constexpr int kTakesMirrors = 1;
 
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).

@@ -19,6 +19,7 @@
 //           apply none published: see generator/tables/README.md
 //           rotate_accurate none published: see generator/tables/README.md
 //           blocks none published: see generator/tables/README.md
+//           times |f|, the excess times |R R^T - I|_F |f| added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -66,6 +67,9 @@ inline constexpr int kHasLobes = 0;
 
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 136;
+
+/// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
+inline constexpr int kTakesMirrors = 0;
 
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).

@@ -1,0 +1,33 @@
+#pragma once
+
+// The generated kernels of order N as static members of PackKernels<N>.
+
+#include "zonal/orders.hpp"
+
+namespace zonal {
+
+template <int N>
+struct PackKernels;
+
+#define ZONAL_PACK_KERNELS(N)                                               \
+    template <>                                                             \
+    struct PackKernels<N> {                                                 \
+        static constexpr bool kTakesMirrors = order##N::kTakesMirrors != 0; \
+        static constexpr int kScalars = order##N::kScalars;                 \
+        template <class P>                                                  \
+        static void rotate(const P* rotation, P* f) {                       \
+            order##N::rotate<P, P>(rotation, f, f);                         \
+        }                                                                   \
+        template <class P>                                                  \
+        static void prepare(const P* rotation, P* scalars) {                \
+            order##N::prepare<P>(rotation, scalars);                        \
+        }                                                                   \
+        template <class P>                                                  \
+        static void apply(const P* scalars, P* f) {                         \
+            order##N::apply<P, P>(scalars, f, f);                           \
+        }                                                                   \
+    };
+ZONAL_FOR_EACH_ORDER(ZONAL_PACK_KERNELS)
+#undef ZONAL_PACK_KERNELS
+
+}  // namespace zonal

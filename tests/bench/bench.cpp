@@ -1,0 +1,413 @@
+// Speed of batches and single calls, beside memcpy of the same bytes and a measured peak of multiply-adds,
+// with the largest error beside every time. Contestants of one workload and order form a group. Every round
+// runs each contestant of a group once, in random order; a ratio is taken within its round, and the median of
+// the rounds is reported: what the machine does to all of them at once cancels.
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "batch/order_kernels.hpp"
+#include "batch/targets.hpp"
+#include "contestants.hpp"
+#include "peak.hpp"
+#include "support/accuracy.hpp"
+#include "support/counting.hpp"
+#include "support/hard_cases.hpp"
+#include "zonal/batch.hpp"
+#include "zonal/rotate.hpp"
+
+namespace zonal::bench {
+namespace {
+
+constexpr int kErrorRotations = 300;
+constexpr std::size_t kPeakRounds = 20000;
+
+struct Options {
+    std::vector<int> orders;
+    std::vector<std::string> workloads{"single", "each", "quaternions", "all", "each-rgb", "all-rgb"};
+    std::vector<std::string> places{"L2", "memory"};
+    std::vector<std::string> types{"float", "double"};
+    std::string target;
+    int rounds = 9;
+    double seconds = 0.004;
+    std::size_t l2_kib = 512;
+    std::size_t memory_mib = 512;
+    std::size_t streamed_mib = batch::kStreamedBytes >> 20;
+    std::string json;
+};
+
+/// One line of the report.
+struct Result {
+    std::string workload, place, contestant, type, target;
+    int order = 0;
+    double nanoseconds = 0;    ///< a vector, all its channels
+    double to_memcpy = 0;      ///< of (bytes read + bytes written) / 2
+    double peak_fraction = 0;  ///< 0 where it has no meaning
+    double error = 0;          ///< largest, relative to the norm of the vector
+};
+
+/// Something that is timed: `run` turns `vectors` vectors.
+struct Contestant {
+    std::string name;
+    std::function<void()> run;
+    double vectors = 1;
+    double peak_instructions = 0;  ///< for one vector, over the lanes of a pack; 0: unknown
+    double error = 0;
+};
+
+/// How vectors are turned in the workloads of the table.
+struct Workload {
+    std::string name;
+    std::size_t channels = 1;
+    std::size_t rotation_length = 9;  ///< values of a rotation; 0: all vectors share one
+
+    bool is_single() const { return name == "single"; }
+};
+
+const std::vector<Workload> kWorkloads{{"single", 1, 9}, {"each", 1, 9},     {"quaternions", 1, 4},
+                                       {"all", 1, 0},    {"each-rgb", 3, 9}, {"all-rgb", 3, 0}};
+
+template <class T>
+const char* type_name() {
+    return std::is_same_v<T, float> ? "float" : "double";
+}
+
+double median(std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + values.size() / 2);
+    return values[values.size() / 2];
+}
+
+/// Rotations, vectors and room for results, one after the other in one piece of memory.
+template <class T>
+struct Data {
+    std::span<T> rotations, in, out;
+    std::size_t count;
+};
+
+template <class T>
+Data<T> lay_out(std::vector<double>& memory, std::size_t bytes, int order, const Workload& workload) {
+    const std::size_t length = workload.channels * order * order;
+    // Whole packs; and half of all bytes are whole values, else the copy would make denormal numbers.
+    const std::size_t count = bytes / sizeof(T) / (2 * length + workload.rotation_length) / 16 * 16;
+    const std::size_t shared = workload.rotation_length == 0 ? 9 : 0;
+    memory.resize(std::max(memory.size(), bytes / sizeof(double) + 64));
+    const std::span<T> values(reinterpret_cast<T*>(memory.data()),
+                              memory.size() * sizeof(double) / sizeof(T));
+    Data<T> data;
+    data.count = count;
+    data.rotations = values.first(count * workload.rotation_length + shared);
+    data.in = values.subspan(data.rotations.size(), count * length);
+    data.out = values.subspan(data.rotations.size() + data.in.size(), count * length);
+
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    std::vector<T> rotations;
+    while (rotations.size() < 9 * 500 && rotations.size() < data.rotations.size()) {
+        const Eigen::Quaterniond q =
+            Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+        if (workload.rotation_length == 4) {
+            for (const double value : q.coeffs()) rotations.push_back(static_cast<T>(value));
+        } else {
+            const RotationMatrix<T> matrix(q);
+            rotations.insert(rotations.end(), matrix.data(), matrix.data() + 9);
+        }
+    }
+    for (std::size_t i = 0; i < data.rotations.size(); ++i)
+        data.rotations[i] = rotations[i % rotations.size()];
+    std::vector<T> signal(4099);
+    for (T& value : signal) value = static_cast<T>(normal(random));
+    for (std::size_t i = 0; i < data.in.size(); ++i) data.in[i] = signal[i % signal.size()];
+    return data;
+}
+
+template <class T>
+void rotate_batch(int order, const Workload& workload, const Data<T>& data) {
+    const BatchLayout layout{.count = data.count, .channels = static_cast<int>(workload.channels)};
+    const std::span<const T> in(data.in), rotations(data.rotations);
+    if (workload.rotation_length == 9)
+        rotate_each(order, RotationMatrices<T>(rotations), layout, in, data.out);
+    else if (workload.rotation_length == 4)
+        rotate_each(order, RotationQuaternions<T>(rotations), layout, in, data.out);
+    else
+        rotate_all(order, *reinterpret_cast<const RotationMatrix<T>*>(rotations.data()), layout, in,
+                   data.out);
+}
+
+/// Largest error of rotate(R, f, out) over random rotations, against the pointwise oracle.
+template <class T, class Rotate>
+double largest_error(int order, const Rotate& rotate) {
+    std::mt19937_64 random(3);
+    const oracle::Rotation exact(order);
+    double largest = 0;
+    for (int k = 0; k < kErrorRotations; ++k) {
+        const double error = accuracy::measure<T>(order, exact, cases::random_rotation(random),
+                                                  cases::random_signal(order, random), rotate)
+                                 .relative;
+        if (!(error <= largest)) largest = error;
+    }
+    return largest;
+}
+
+/// The same of one channel of a batch. A quaternion is judged with its own matrix, rounded to T.
+template <class T>
+double batch_error(int order, const Workload& workload) {
+    return largest_error<T>(order, [&](const T* R, const T* f, T* out) {
+        std::vector<T> in, turned(workload.channels * order * order);
+        for (int i = 0; i < order * order; ++i) in.insert(in.end(), workload.channels, f[i]);
+        Data<T> data{{}, in, turned, 1};
+        std::vector<T> rotation(R, R + 9);
+        if (workload.rotation_length == 4) {
+            using RowMajor = Eigen::Matrix<T, 3, 3, Eigen::RowMajor>;
+            const Eigen::Quaterniond q(Eigen::Map<const RowMajor>(R).template cast<double>());
+            rotation.clear();
+            for (const double value : q.normalized().coeffs()) rotation.push_back(static_cast<T>(value));
+        }
+        data.rotations = rotation;
+        rotate_batch(order, workload, data);
+        for (int i = 0; i < order * order; ++i) out[i] = turned[i * workload.channels];
+    });
+}
+
+/// Instructions of the generated kernels for one vector with all its channels.
+template <int N>
+int instructions_of(const Workload& workload, bool is_fused) {
+    using Kernels = PackKernels<N>;
+    Counting R[9], f[N * N], scalars[Kernels::kScalars];
+    const auto counted = [&](const auto& kernel) {
+        Counting::tally = {};
+        kernel();
+        const Tally& t = Counting::tally;
+        return t.mul + t.add + (is_fused ? 1 : 2) * t.fma + t.other;
+    };
+    const int once = counted([&] { Kernels::rotate(R, f); });
+    const int prepare = counted([&] { Kernels::prepare(R, scalars); });
+    const int apply = counted([&] { Kernels::apply(scalars, f); });
+    if (workload.rotation_length > 0 && workload.channels == 1) return once;
+    return static_cast<int>(workload.channels) * apply + (workload.rotation_length > 0 ? prepare : 0);
+}
+
+int instructions_of(int order, const Workload& workload, bool is_fused) {
+    switch (order) {
+#define ZONAL_BENCH_CASE(N) \
+    case N:                 \
+        return instructions_of<N>(workload, is_fused);
+        ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_CASE)
+#undef ZONAL_BENCH_CASE
+    }
+    return 0;
+}
+
+/// Keeps the time of one run of every benchmark.
+class Collector : public benchmark::BenchmarkReporter {
+  public:
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs)
+            if (run.run_type == Run::RT_Iteration)
+                seconds[run.run_name.function_name] =
+                    run.real_accumulated_time / static_cast<double>(run.iterations);
+    }
+    std::map<std::string, double> seconds;  ///< of one iteration
+};
+
+/// Every round of a group; seconds of one iteration by contestant and round.
+std::map<std::string, std::vector<double>> race(const std::vector<Contestant>& contestants,
+                                                const Options& options, bool is_long) {
+    benchmark::ClearRegisteredBenchmarks();
+    for (const Contestant& contestant : contestants) {
+        auto* entry =
+            benchmark::RegisterBenchmark(contestant.name.c_str(), [&contestant](benchmark::State& state) {
+                for (auto iteration : state) {
+                    contestant.run();
+                    benchmark::ClobberMemory();
+                }
+            })->UseRealTime();
+        if (is_long)
+            entry->Iterations(1);
+        else
+            entry->MinTime(options.seconds);
+    }
+    std::map<std::string, std::vector<double>> times;
+    for (int round = 0; round <= options.rounds; ++round) {
+        Collector collector;
+        benchmark::RunSpecifiedBenchmarks(&collector);
+        if (round == 0) continue;  // warms up
+        for (const auto& [name, seconds] : collector.seconds)
+            times[name.substr(0, name.find('/'))].push_back(seconds);
+    }
+    return times;
+}
+
+template <class T>
+std::vector<Contestant> contestants_of(int order, const Workload& workload, const Data<T>& data,
+                                       bool is_long) {
+    std::vector<Contestant> contestants;
+    const Peak peak = peak_of<T>(batch::chosen_target());
+    const double vectors = static_cast<double>(data.count);
+    if (workload.is_single()) {
+        for (const SingleCall<T>& call : single_calls<T>(order))
+            contestants.push_back(
+                {call.name,
+                 [call, data] {
+                     call.run({data.rotations.data(), data.in.data(), data.out.data(), data.count});
+                 },
+                 vectors, 0, largest_error<T>(order, call.rotate)});
+    } else {
+        contestants.push_back({"zonal", [=] { rotate_batch(order, workload, data); }, vectors,
+                               static_cast<double>(instructions_of(order, workload, peak.is_fused)) /
+                                   static_cast<double>(peak.lanes),
+                               batch_error<T>(order, workload)});
+    }
+    // The copy goes from the first half of all bytes to the second.
+    const std::size_t length = workload.channels * order * order;
+    const std::size_t bytes = data.count * (2 * length + workload.rotation_length) * sizeof(T) / 2;
+    char* begin = reinterpret_cast<char*>(data.rotations.data());
+    contestants.push_back({"memcpy", [=] { std::memcpy(begin + bytes, begin, bytes); }, vectors});
+    if (!is_long || !workload.is_single())
+        contestants.push_back({"peak", [peak] { benchmark::DoNotOptimize(peak.run(kPeakRounds)); },
+                               static_cast<double>(kPeakRounds * kPeakChains)});
+    return contestants;
+}
+
+template <class T>
+void measure(int order, const Workload& workload, const std::string& place, const Options& options,
+             std::vector<double>& memory, std::vector<Result>& results) {
+    const bool is_long = place == "memory";
+    const std::size_t bytes = is_long ? options.memory_mib << 20 : options.l2_kib << 10;
+    const Data<T> data = lay_out<T>(memory, bytes, order, workload);
+    const std::vector<Contestant> contestants = contestants_of<T>(order, workload, data, is_long);
+    // memcpy overwrites what the others read with other vectors, which are as good.
+    const auto times = race(contestants, options, is_long);
+    for (const Contestant& contestant : contestants) {
+        if (contestant.name == "memcpy" || contestant.name == "peak") continue;
+        const std::vector<double>& seconds = times.at(contestant.name);
+        std::vector<double> nanoseconds, to_memcpy, fraction;
+        for (std::size_t round = 0; round < seconds.size(); ++round) {
+            nanoseconds.push_back(1e9 * seconds[round] / contestant.vectors);
+            to_memcpy.push_back(seconds[round] / times.at("memcpy")[round]);
+            if (contestant.peak_instructions > 0)
+                fraction.push_back(contestant.peak_instructions * times.at("peak")[round] /
+                                   static_cast<double>(kPeakRounds * kPeakChains) /
+                                   (seconds[round] / contestant.vectors));
+        }
+        results.push_back({.workload = workload.name,
+                           .place = place,
+                           .contestant = contestant.name,
+                           .type = type_name<T>(),
+                           .target = workload.is_single() ? "scalar" : std::string(batch::chosen_target()),
+                           .order = order,
+                           .nanoseconds = median(nanoseconds),
+                           .to_memcpy = median(to_memcpy),
+                           .peak_fraction = fraction.empty() ? 0 : median(fraction),
+                           .error = contestant.error});
+        const Result& r = results.back();
+        fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {} | {:.1e} |\n", r.workload, r.place,
+                   r.order, r.contestant, r.type, r.target, r.nanoseconds, r.to_memcpy,
+                   r.peak_fraction > 0 ? fmt::format("{:.0f} %", 100 * r.peak_fraction) : "", r.error);
+        std::fflush(stdout);
+    }
+}
+
+void write_json(const std::string& path, const std::vector<Result>& results, const Options& options) {
+    nlohmann::json json;
+    json["rounds"] = options.rounds;
+    json["l2_kib"] = options.l2_kib;
+    json["memory_mib"] = options.memory_mib;
+    json["error_rotations"] = kErrorRotations;
+    for (const Result& r : results) {
+        nlohmann::json line{{"workload", r.workload},     {"place", r.place},         {"order", r.order},
+                            {"contestant", r.contestant}, {"type", r.type},           {"target", r.target},
+                            {"ns", r.nanoseconds},        {"to_memcpy", r.to_memcpy}, {"error", r.error}};
+        if (r.peak_fraction > 0) line["peak_fraction"] = r.peak_fraction;
+        json["results"].push_back(std::move(line));
+    }
+    std::ofstream stream(path);
+    stream << json.dump(1) << '\n';
+    if (!stream) throw std::runtime_error(path + ": cannot be written");
+}
+
+void run(const Options& options) {
+    if (!batch::choose_target(options.target))
+        throw std::runtime_error(fmt::format("--target: found {}, wanted one of: {}", options.target,
+                                             fmt::join(batch::runnable_targets(), ", ")));
+    batch::set_streamed_bytes(options.streamed_mib << 20);
+    fmt::print(
+        "Time of one vector (all channels) on one core; ratio to memcpy of (bytes read + written) / 2, "
+        "rotations\n"
+        "included; share of the measured peak of multiply-adds on the same packs that the kernel's own\n"
+        "instructions make; largest error over {} random rotations. Medians of {} interleaved rounds.\n"
+        "L2: {} KiB in all; memory: {} MiB.\n\n"
+        "| workload | from | N | contestant | type | packs | ns | / memcpy | of peak | error |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n",
+        kErrorRotations, options.rounds, options.l2_kib, options.memory_mib);
+    std::vector<double> memory;
+    std::vector<Result> results;
+    const auto wanted = [](const std::vector<std::string>& list, const std::string& name) {
+        return std::ranges::find(list, name) != list.end();
+    };
+    for (const Workload& workload : kWorkloads) {
+        if (!wanted(options.workloads, workload.name)) continue;
+        for (const std::string& place : options.places) {
+            for (const int order : compiled_orders()) {
+                if (std::ranges::find(options.orders, order) == options.orders.end()) continue;
+                if (wanted(options.types, "float"))
+                    measure<float>(order, workload, place, options, memory, results);
+                if (wanted(options.types, "double"))
+                    measure<double>(order, workload, place, options, memory, results);
+            }
+        }
+    }
+    if (!options.json.empty()) write_json(options.json, results, options);
+}
+
+}  // namespace
+}  // namespace zonal::bench
+
+int main(int argc, char** argv) {
+    CLI::App app{"Times batches and single calls of every compiled order, with the error beside every time."};
+    zonal::bench::Options options;
+    options.orders.assign(zonal::compiled_orders().begin(), zonal::compiled_orders().end());
+    app.add_option("--orders", options.orders, "orders to time")->delimiter(',');
+    app.add_option("--workloads", options.workloads)->delimiter(',')->capture_default_str();
+    app.add_option("--places", options.places, "L2, memory")->delimiter(',')->capture_default_str();
+    app.add_option("--types", options.types, "float, double")->delimiter(',')->capture_default_str();
+    app.add_option("--target", options.target, "instruction set of the packs, default the best");
+    app.add_option("--rounds", options.rounds)->check(CLI::PositiveNumber)->capture_default_str();
+    app.add_option("--seconds", options.seconds, "shortest time of a run in cache")->capture_default_str();
+    app.add_option("--l2-kib", options.l2_kib, "bytes of a workload in cache")->capture_default_str();
+    app.add_option("--memory-mib", options.memory_mib,
+                   "bytes of a workload in memory: several times the last cache")
+        ->capture_default_str();
+    app.add_option("--streamed-mib", options.streamed_mib,
+                   "batches larger than this are written past the caches")
+        ->capture_default_str();
+    app.add_option("--json", options.json, "also write the results to this file");
+    CLI11_PARSE(app, argc, argv);
+    // Every call of the library runs the group registered at that time, in random order.
+    std::vector<std::string> arguments{"zonal-bench", "--benchmark_enable_random_interleaving=true"};
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    int count = static_cast<int>(pointers.size());
+    benchmark::Initialize(&count, pointers.data());
+    try {
+        zonal::bench::run(options);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

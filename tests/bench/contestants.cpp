@@ -1,0 +1,45 @@
+#include "contestants.hpp"
+
+#include "zonal/orders.hpp"
+
+namespace zonal::bench {
+namespace {
+
+/// A single call in a loop; Kernel::rotate<T>(R, f, out) is inlined as a user's would be.
+template <class Kernel, int N, class T>
+SingleCall<T> single_call(const char* name) {
+    return {name,
+            [](const Arrays<T>& a) {
+                for (std::size_t k = 0; k < a.count; ++k)
+                    Kernel::rotate(a.rotations + 9 * k, a.in + N * N * k, a.out + N * N * k);
+            },
+            [](const T* R, const T* f, T* out) { Kernel::rotate(R, f, out); }};
+}
+
+#define ZONAL_BENCH_KERNEL(N)                                \
+    struct Order##N {                                        \
+        template <class T>                                   \
+        static void rotate(const T* R, const T* f, T* out) { \
+            order##N::rotate<T, T>(R, f, out);               \
+        }                                                    \
+    };
+ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_KERNEL)
+#undef ZONAL_BENCH_KERNEL
+
+}  // namespace
+
+template <class T>
+std::vector<SingleCall<T>> single_calls(int order) {
+    std::vector<SingleCall<T>> calls;
+#define ZONAL_BENCH_KERNEL(N) \
+    if (order == N) calls.push_back(single_call<Order##N, N, T>("rotate"));
+    ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_KERNEL)
+#undef ZONAL_BENCH_KERNEL
+    // Baselines: calls.push_back({"name", run, rotate});
+    return calls;
+}
+
+template std::vector<SingleCall<float>> single_calls<float>(int);
+template std::vector<SingleCall<double>> single_calls<double>(int);
+
+}  // namespace zonal::bench

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace zonal::bench {
+
+/// Arrays of `count` rotations (nine values) and vectors (N^2 values), all touching.
+template <class T>
+struct Arrays {
+    const T* rotations;
+    const T* in;
+    T* out;
+    std::size_t count;
+};
+
+/// A way to turn vectors, one call for each vector and its own rotation.
+template <class T>
+struct SingleCall {
+    std::string name;
+    void (*run)(const Arrays<T>&);
+    void (*rotate)(const T* R, const T* f, T* out);  ///< one of them, to measure its error
+};
+
+/// Whoever takes part in the table of single calls for this order: add baselines here (contestants.cpp).
+template <class T>
+std::vector<SingleCall<T>> single_calls(int order);
+
+}  // namespace zonal::bench
