@@ -176,6 +176,8 @@ Plan cheapest_plan(int order, const Workload& workload) {
             least.try_emplace(a.plan.method, w);
             if (w <= least[a.plan.method] + kMostSaved) candidates.back().push_back(a.plan);
         }
+        // Above the low bands only dense blocks take mirrors.
+        if (candidates.back().empty()) candidates.back().push_back({BandMethod::dense, {}});
     }
 
     // Low bands together: from one method for all of them that know it, one band at a time is changed while

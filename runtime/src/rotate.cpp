@@ -43,7 +43,7 @@ void checked_rotate(int order, const RotationMatrix<T>& rotation, std::span<cons
     check_compiled(order);
     check_length("in", order, in.size());
     check_length("out", order, out.size());
-    check_no_partial_overlap("in and out", in, out);
+    check_no_partial_overlap(in, out);
     // Kernels need determinant +1: a mirror is a rotation by -R, then a change of sign in the odd bands.
     if (!is_mirror(rotation)) return dispatch(order, rotation.data(), in.data(), out.data());
     const RotationMatrix<T> turned(-rotation.matrix());

@@ -15,11 +15,11 @@ void expect_within_bounds(int order) {
     const OrderKernels kernels = build_order_kernels(order, {});
     std::map<std::string, double> excess;
     for (const auto& [name, bound] : kernels.bounds) excess[name] = std::stod(bound.excess_text);
-    const int random_count = order <= 10 ? 500 : 100;
+    const int random_count = order <= 10 ? 300 : 30;
     const auto problems = accuracy::problems<T>(order, random_count, 30, 7 * order);
     const auto contestants = graph_contestants<T>(order, kernels.kernels, excess);
     ASSERT_GE(contestants.size(), 4u);
-    const auto worst = accuracy::worst_errors<T>(order, problems, contestants);
+    const auto worst = accuracy::worst_errors<T>(oracle::Rotation(order), problems, contestants);
     for (std::size_t k = 0; k < contestants.size(); ++k) {
         const std::string& name = contestants[k].name;
         ASSERT_TRUE(kernels.bounds.contains(name))

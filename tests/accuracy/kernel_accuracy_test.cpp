@@ -18,7 +18,7 @@ void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>&
     constexpr bool kIsFloat = std::is_same_v<T, float>;
     const int random_count = order <= 6 ? 10000 : 1000, thinning = order <= 6 ? 1 : 10;
     const auto problems = accuracy::problems<T>(order, random_count, thinning, kSeed + order);
-    const auto worst = accuracy::worst_errors<T>(order, problems, kernels);
+    const auto worst = accuracy::worst_errors<T>(oracle::Rotation(order), problems, kernels);
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         const std::string& name = kernels[k].name;
         const banner::Bound bound = banner::bound(order, name);

@@ -151,15 +151,13 @@ void rotate_batch(int order, const Workload& workload, const Data<T>& data) {
 template <class T, class Rotate>
 double largest_error(int order, const Rotate& rotate) {
     std::mt19937_64 random(3);
-    const oracle::Rotation exact(order);
-    double largest = 0;
+    std::vector<accuracy::Problem> problems;
     for (int k = 0; k < kErrorRotations; ++k) {
-        const double error = accuracy::measure<T>(order, exact, cases::random_rotation(random),
-                                                  cases::random_signal(order, random), rotate)
-                                 .relative;
-        if (!(error <= largest)) largest = error;
+        const cases::Matrix rotation = cases::random_rotation(random);
+        problems.push_back({"", rotation, cases::random_signal(order, random)});
     }
-    return largest;
+    const accuracy::Contestant<T> kernel{"", rotate};
+    return accuracy::worst_errors<T>(oracle::Rotation(order), problems, {kernel}).front().error;
 }
 
 /// The same of one channel of a batch. A quaternion is judged with its own matrix, rounded to T.

@@ -1,5 +1,10 @@
 #include "contestants.hpp"
 
+#include <memory>
+
+#include "bench/baselines/euler_zyz.hpp"
+#include "bench/baselines/ivanic_ruedenberg.hpp"
+#include "bench/baselines/zxzxz.hpp"
 #include "zonal/orders.hpp"
 
 namespace zonal::bench {
@@ -14,6 +19,19 @@ SingleCall<T> single_call(const char* name) {
                     Kernel::rotate(a.rotations + 9 * k, a.in + N * N * k, a.out + N * N * k);
             },
             [](const T* R, const T* f, T* out) { Kernel::rotate(R, f, out); }};
+}
+
+/// The same of what others do; its tables are made once.
+template <class T, class Baseline>
+SingleCall<T> baseline(const char* name, int order) {
+    const auto kernel = std::make_shared<Baseline>(order);
+    const std::size_t size = static_cast<std::size_t>(order) * order;
+    return {name,
+            [=](const Arrays<T>& a) {
+                for (std::size_t k = 0; k < a.count; ++k)
+                    kernel->rotate(a.rotations + 9 * k, a.in + size * k, a.out + size * k);
+            },
+            [=](const T* R, const T* f, T* out) { kernel->rotate(R, f, out); }};
 }
 
 #define ZONAL_BENCH_KERNEL(N)                                \
@@ -35,7 +53,9 @@ std::vector<SingleCall<T>> single_calls(int order) {
     if (order == N) calls.push_back(single_call<Order##N, N, T>("rotate"));
     ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_KERNEL)
 #undef ZONAL_BENCH_KERNEL
-    // Baselines: calls.push_back({"name", run, rotate});
+    calls.push_back(baseline<T, baselines::Zxzxz<T>>("zxzxz with angles", order));
+    calls.push_back(baseline<T, baselines::EulerZyz<T>>("z-y-z with angles", order));
+    calls.push_back(baseline<T, baselines::IvanicRuedenberg<T>>("Ivanic-Ruedenberg", order));
     return calls;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ struct Arrays {
 template <class T>
 struct SingleCall {
     std::string name;
-    void (*run)(const Arrays<T>&);
-    void (*rotate)(const T* R, const T* f, T* out);  ///< one of them, to measure its error
+    std::function<void(const Arrays<T>&)> run;
+    std::function<void(const T* R, const T* f, T* out)> rotate;  ///< one of them, to measure its error
 };
 
 /// Whoever takes part in the table of single calls for this order: add baselines here (contestants.cpp).

@@ -69,7 +69,7 @@ TEST(Emit, leaves_nothing_but_the_header) {
 
 TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
     const fs::path folder = fresh_folder("columns");
-    for (const int order : {3, 6}) {
+    for (const int order : {2, 3, 6, 10}) {
         ASSERT_EQ(zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, folder.string()))
                       .status,
                   0);
@@ -80,13 +80,21 @@ TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
 }
 
 TEST(Emit, an_order_out_of_range_is_named) {
-    for (const int order : {0, 2, 21}) {
+    for (const int order : {-1, 0, 21}) {
         const Outcome result =
             zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
         EXPECT_EQ(result.status, 1);
         EXPECT_THAT(result.output,
-                    AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("3 … 20")));
+                    AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("2 … 20")));
     }
+}
+
+TEST(Emit, an_order_without_a_table_gets_no_lobe_kernels_and_says_so) {
+    const fs::path folder = fresh_folder("no_table");
+    ASSERT_EQ(zonal_gen(fmt::format("emit --order 11 --language cpp --out '{}'", folder.string())).status, 0);
+    const std::string text = read(folder / "zonal/order11.hpp");
+    EXPECT_THAT(text, AllOf(HasSubstr("table   : none for this order"), HasSubstr("void rotate("),
+                            Not(HasSubstr("void rotate_zhf(")), HasSubstr("kHasLobes = 0")));
 }
 
 TEST(Emit, an_unknown_language_is_named_with_the_known_ones) {

@@ -10,6 +10,8 @@ namespace zonal::accuracy {
 
 namespace {
 
+constexpr const char* kHardSignal = "hard signal";
+
 template <class T>
 oracle::Matrix3 as_given(const cases::Matrix& rotation) {
     oracle::Matrix3 given;
@@ -46,7 +48,7 @@ std::vector<Problem> problems(int order, int random_count, int thinning, std::ui
     std::vector<Problem> all;
     const auto add = [&](const std::string& name, const cases::Matrix& rotation, std::vector<double> signal) {
         const bool is_noisy = name.starts_with("orthonormal only");
-        all.push_back({name, rotation, std::move(signal), is_noisy});
+        all.push_back({name, rotation, std::move(signal), is_noisy, name == kHardSignal});
     };
     for (int k = 0; k < random_count; ++k) {
         const cases::Matrix rotation = cases::random_rotation(random);
@@ -54,20 +56,21 @@ std::vector<Problem> problems(int order, int random_count, int thinning, std::ui
     }
     std::map<std::string, int> seen;
     for (const cases::Case& hard : cases::hard_rotations<T>(random)) {
-        constexpr int kAlwaysTaken = 100;
+        const int always_taken = order <= 10 ? 100 : 33;
         const int number = seen[hard.name]++;
-        if (number >= kAlwaysTaken && number % thinning != 0) continue;
+        if (number >= always_taken && number % thinning != 0) continue;
         add(hard.name, hard.rotation, cases::random_signal(order, random));
     }
     for (const std::vector<double>& f : cases::hard_signals(order, random))
-        for (int k = 0; k < 20; ++k) add("hard signal", cases::random_rotation(random), f);
+        for (int k = 0; k < (thinning == 1 ? 20 : 3); ++k)
+            add(kHardSignal, cases::random_rotation(random), f);
     return all;
 }
 
 template <class T>
-std::vector<Worst> worst_errors(int order, const std::vector<Problem>& problems,
+std::vector<Worst> worst_errors(const oracle::Rotation& exact, const std::vector<Problem>& problems,
                                 const std::vector<Contestant<T>>& kernels) {
-    const oracle::Rotation exact(order);
+    const int order = exact.order();
     std::vector<Worst> worst(kernels.size());
     for (const Problem& problem : problems) {
         const oracle::Matrix3 given = as_given<T>(problem.rotation);
@@ -138,9 +141,9 @@ template Contestant<float> with_mirrors(int, Contestant<float>);
 template Contestant<double> with_mirrors(int, Contestant<double>);
 template std::vector<Problem> problems<float>(int, int, int, std::uint64_t);
 template std::vector<Problem> problems<double>(int, int, int, std::uint64_t);
-template std::vector<Worst> worst_errors(int, const std::vector<Problem>&,
+template std::vector<Worst> worst_errors(const oracle::Rotation&, const std::vector<Problem>&,
                                          const std::vector<Contestant<float>>&);
-template std::vector<Worst> worst_errors(int, const std::vector<Problem>&,
+template std::vector<Worst> worst_errors(const oracle::Rotation&, const std::vector<Problem>&,
                                          const std::vector<Contestant<double>>&);
 
 }  // namespace zonal::accuracy

@@ -22,19 +22,20 @@ struct Contestant {
 template <class T>
 Contestant<T> with_mirrors(int order, Contestant<T> kernel);
 
-/// What is turned: 10^4 random rotations or fewer, the hard rotations (every `thinning`-th of those that come
-/// by the hundred), a random signal each, and the hard signals.
+/// What is turned: random rotations, the hard rotations (of each kind 100, a third of that above order 10,
+/// and every `thinning`-th beyond), a random signal each, and the hard signals.
 struct Problem {
     std::string name;
     cases::Matrix rotation;
     std::vector<double> signal;
-    bool is_noisy = false;  ///< the rotation is meant not to be orthonormal
+    bool is_noisy = false;         ///< the rotation is meant not to be orthonormal
+    bool has_hard_signal = false;  ///< and a random rotation
 };
 template <class T>
 std::vector<Problem> problems(int order, int random_count, int thinning, std::uint64_t seed);
 
-/// The worst error of a kernel: ‖result - exact‖₂ / ‖f‖₂ less what R itself excuses, where exact is the turn by the
-/// orthonormal matrix nearest to R as it is given in T. NaN counts as infinite.
+/// The worst error of a kernel: ‖result - exact‖₂ / ‖f‖₂ less what R itself excuses, where exact is the turn
+/// by the orthonormal matrix nearest to R as it is given in T. NaN counts as infinite.
 struct Worst {
     double error = 0;  ///< less the kernel's own excess times ‖R Rᵀ - I‖_F
     std::string name;  ///< where it was met
@@ -43,7 +44,7 @@ struct Worst {
     std::string name_of_rotations;
 };
 template <class T>
-std::vector<Worst> worst_errors(int order, const std::vector<Problem>& problems,
+std::vector<Worst> worst_errors(const oracle::Rotation& exact, const std::vector<Problem>& problems,
                                 const std::vector<Contestant<T>>& kernels);
 
 /// The largest error b_N that a kernel may have by the project's own contract, for N = 2 … 20 (linear

@@ -8,7 +8,8 @@ struct Tally {
     int mul = 0, add = 0, fma = 0, other = 0;
 };
 
-/// A number that counts the operations done with it. A minus sign alone is none (see graph/counts.hpp).
+/// A number that counts the operations done with it. A minus sign alone is none (see graph/counts.hpp). Never
+/// inlined: kernels of thousands of lines compile sooner so.
 struct Counting {
     double value = 0;
 
@@ -17,15 +18,23 @@ struct Counting {
     Counting() = default;
     explicit Counting(double v) : value(v) {}
 
-    friend Counting operator+(Counting a, Counting b) { return ++tally.add, Counting(a.value + b.value); }
-    friend Counting operator-(Counting a, Counting b) { return ++tally.add, Counting(a.value - b.value); }
-    friend Counting operator*(Counting a, Counting b) { return ++tally.mul, Counting(a.value * b.value); }
-    friend Counting operator/(Counting a, Counting b) { return ++tally.other, Counting(a.value / b.value); }
-    friend Counting operator-(Counting a) { return Counting(-a.value); }
-    friend Counting fma(Counting a, Counting b, Counting c) {
+    [[gnu::noinline]] friend Counting operator+(Counting a, Counting b) {
+        return ++tally.add, Counting(a.value + b.value);
+    }
+    [[gnu::noinline]] friend Counting operator-(Counting a, Counting b) {
+        return ++tally.add, Counting(a.value - b.value);
+    }
+    [[gnu::noinline]] friend Counting operator*(Counting a, Counting b) {
+        return ++tally.mul, Counting(a.value * b.value);
+    }
+    [[gnu::noinline]] friend Counting operator/(Counting a, Counting b) {
+        return ++tally.other, Counting(a.value / b.value);
+    }
+    [[gnu::noinline]] friend Counting operator-(Counting a) { return Counting(-a.value); }
+    [[gnu::noinline]] friend Counting fma(Counting a, Counting b, Counting c) {
         return ++tally.fma, Counting(a.value * b.value + c.value);
     }
-    friend Counting sqrt(Counting a) { return ++tally.other, Counting(std::sqrt(a.value)); }
+    [[gnu::noinline]] friend Counting sqrt(Counting a) { return ++tally.other, Counting(std::sqrt(a.value)); }
     friend Counting copysign(Counting a, Counting b) { return Counting(std::copysign(a.value, b.value)); }
 };
 

@@ -30,6 +30,7 @@ Real orthonormality_error(const Matrix3& rotation);
 class Rotation {
   public:
     explicit Rotation(int order);
+    int order() const { return order_; }
     std::vector<Real> operator()(const Matrix3& rotation, const std::vector<Real>& f) const;
     /// The same as matrices: f'_l = blocks[l] f_l, row-major (2l+1)². For many signals of one rotation.
     std::vector<std::vector<Real>> blocks(const Matrix3& rotation) const;

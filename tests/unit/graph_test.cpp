@@ -46,6 +46,55 @@ TEST(Graph, equal_expressions_are_one_node_whatever_their_order_and_sign) {
     EXPECT_EQ(graph.negate(minus), plus);
 }
 
+TEST(Graph, a_difference_and_its_negative_are_one_node) {
+    Graph graph;
+    const Id x = graph.input(Kind::rotation, 0, 0), y = graph.input(Kind::rotation, 0, 1);
+    EXPECT_EQ(graph.negate(graph.subtract(x, y)), graph.subtract(y, x));
+}
+
+TEST(Graph, a_signal_has_no_quotient_root_or_sign) {
+    Graph graph;
+    const Id r = graph.input(Kind::rotation, 0, 0), f = graph.input(Kind::signal, 1, 0);
+    EXPECT_THROW(graph.divide(r, f), std::logic_error);
+    EXPECT_THROW(graph.square_root(f), std::logic_error);
+    EXPECT_THROW(graph.copy_sign(r, f), std::logic_error);
+    EXPECT_EQ(graph[graph.divide(r, graph.square_root(r))].kind, Kind::rotation);
+}
+
+TEST(Counts, divisions_and_roots_are_other_and_a_copied_sign_is_nothing) {
+    Kernel kernel = empty_kernel();
+    const Value x = kernel.input(0, 0);
+    kernel.store(0, (x / sqrt(x + copysign(Number(1), x))) * kernel.input(1, 0), 0);
+    const Cost cost = count_operations(kernel);
+    EXPECT_EQ(cost.per_rotation.other, 2);
+    EXPECT_EQ(cost.per_rotation.add, 1);
+    EXPECT_EQ(cost.per_vector.mul, 1);
+}
+
+TEST(SplitByKind, halves_hand_over_the_scalars_that_signals_meet) {
+    Kernel kernel = empty_kernel();
+    const Value a = kernel.input(0, 0) * kernel.input(0, 1);
+    kernel.store(0, a * kernel.input(1, 0) + kernel.input(0, 2) * kernel.input(1, 1), 0);
+    const Halves halves = split_by_kind(optimize(kernel));
+    EXPECT_EQ(halves.prepare.output.size, 2);  // the product and the third entry of R
+    EXPECT_EQ(count_operations(halves.prepare).total().mul, 1);
+    EXPECT_EQ(count_operations(halves.apply).per_rotation.instructions(), 0);
+    EXPECT_EQ(count_operations(halves.apply).per_vector.instructions(), 2);
+}
+
+TEST(Spills, values_that_wait_beyond_the_registers_go_to_memory_and_back) {
+    // Four sums that wait for each other: three registers are one too few, and one value goes and comes back.
+    Kernel kernel = empty_kernel();
+    std::vector<Value> sums;
+    for (int i = 0; i < 4; ++i) sums.push_back(kernel.input(1, i) + kernel.input(1, i + 1));
+    kernel.store(0, (sums[0] + sums[1]) + (sums[2] + sums[3]), 0);
+    const std::vector<Statement> statements = schedule(kernel);
+    EXPECT_EQ(simulate_spills(kernel, statements, 4).stores, 0);
+    const Spills few = simulate_spills(kernel, statements, 3);
+    EXPECT_EQ(few.stores, 1);
+    EXPECT_EQ(few.reloads, 1);
+}
+
 TEST(Graph, what_is_not_linear_in_the_signal_cannot_be_built) {
     Graph graph;
     const Id r = graph.input(Kind::rotation, 0, 0), f = graph.input(Kind::signal, 1, 0);
