@@ -45,14 +45,14 @@ std::vector<std::string> banner_lines(const Unit& unit) {
     append(lines, "table", {unit.table});
     append(lines, "basis", {unit.basis});
     append(lines, "cost", costs);
-    bounds.push_back("times |f|, the excess times |R R^T - I|_F |f| added");
+    bounds.push_back("of |f|, with fused instructions; the excess times |R R^T - I|_F is added");
     append(lines, "bound", bounds);
     append(lines, "source", unit.sources);
     return lines;
 }
 
 std::string domain_text(const graph::Kernel& kernel) {
-    return kernel.needs_proper_rotation ? "for det R = +1" : "for det R = +1 or -1";
+    return kernel.needs_proper_rotation ? "det R = +1" : "det R = +1 or -1";
 }
 
 std::string literal(const graph::Number& value) {

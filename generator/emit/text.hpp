@@ -12,7 +12,7 @@ namespace zonal::emit {
 /// command, table, basis, cost, bound, source in that order.
 std::vector<std::string> banner_lines(const Unit& unit);
 
-/// The rotations that a kernel is right for: "for det R = +1".
+/// The rotations that a kernel is right for: "det R = +1".
 std::string domain_text(const graph::Kernel& kernel);
 
 /// A constant as a decimal of at most 17 digits that reads back as the double nearest to it.

@@ -12,11 +12,11 @@
 //             per extra vector 3 mul 0 add 6 fma 0 other
 //           blocks 0 mul 0 add 0 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, for det R = +1 or -1
-//           apply relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, for det R = +1 or -1
-//           rotate_accurate relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, for det R = +1 or -1
-//           blocks relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, for det R = +1 or -1
-//           times |f|, the excess times |R R^T - I|_F |f| added
+// bound   : rotate relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, det R = +1 or -1
+//           apply relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, det R = +1 or -1
+//           rotate_accurate relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, det R = +1 or -1
+//           blocks relative error 1.2e-07 (float), 2.3e-16 (double); excess 0.55, det R = +1 or -1
+//           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 #pragma once
@@ -67,25 +67,25 @@ inline constexpr int kScalars = 9;
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 1;
 
-/// Largest relative error of rotate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 1.2e-07;
 inline constexpr double kRotateBoundDouble = 2.3e-16;
 inline constexpr double kRotateExcess = 0.55;
 
-/// Largest relative error of apply, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of apply for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 1.2e-07;
 inline constexpr double kApplyBoundDouble = 2.3e-16;
 inline constexpr double kApplyExcess = 0.55;
 
-/// Largest relative error of rotate_accurate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 1.2e-07;
 inline constexpr double kRotateAccurateBoundDouble = 2.3e-16;
 inline constexpr double kRotateAccurateExcess = 0.55;
 
-/// Largest relative error of blocks, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kBlocksBoundFloat = 1.2e-07;
 inline constexpr double kBlocksBoundDouble = 2.3e-16;

@@ -24,13 +24,13 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 32 mul 23 add 40 fma 0 other;
 //             per extra vector 32 mul 8 add 40 fma 0 other
-// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double); excess 2.16, for det R = +1
-//           rotate relative error 2.6e-07 (float), 6.6e-16 (double); excess 2.16, for det R = +1 or -1
-//           apply relative error 1.6e-07 (float), 3.3e-16 (double); excess 1.08, for det R = +1 or -1
-//           rotate_accurate relative error 1.6e-07 (float), 3.3e-16 (double); excess 1.08, for det R = +1 or -1
-//           blocks relative error 1.8e-07 (float), 3.3e-16 (double); excess 1.08, for det R = +1 or -1
-//           rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double); excess 1.00, for det R = +1 or -1
-//           times |f|, the excess times |R R^T - I|_F |f| added
+// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double); excess 2.16, det R = +1
+//           rotate relative error 2.6e-07 (float), 6.6e-16 (double); excess 2.16, det R = +1 or -1
+//           apply relative error 1.6e-07 (float), 3.3e-16 (double); excess 1.08, det R = +1 or -1
+//           rotate_accurate relative error 1.6e-07 (float), 3.3e-16 (double); excess 1.08, det R = +1 or -1
+//           blocks relative error 1.8e-07 (float), 3.3e-16 (double); excess 1.08, det R = +1 or -1
+//           rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double); excess 1.00, det R = +1 or -1
+//           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 //           Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it
@@ -86,37 +86,37 @@ inline constexpr int kScalars = 34;
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 1;
 
-/// Largest relative error of rotate_channels, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 2.8e-07;
 inline constexpr double kRotateChannelsBoundDouble = 6.6e-16;
 inline constexpr double kRotateChannelsExcess = 2.16;
 
-/// Largest relative error of rotate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 2.6e-07;
 inline constexpr double kRotateBoundDouble = 6.6e-16;
 inline constexpr double kRotateExcess = 2.16;
 
-/// Largest relative error of apply, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of apply for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 1.6e-07;
 inline constexpr double kApplyBoundDouble = 3.3e-16;
 inline constexpr double kApplyExcess = 1.08;
 
-/// Largest relative error of rotate_accurate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 1.6e-07;
 inline constexpr double kRotateAccurateBoundDouble = 3.3e-16;
 inline constexpr double kRotateAccurateExcess = 1.08;
 
-/// Largest relative error of blocks, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kBlocksBoundFloat = 1.8e-07;
 inline constexpr double kBlocksBoundDouble = 3.3e-16;
 inline constexpr double kBlocksExcess = 1.08;
 
-/// Largest relative error of rotate_zhf, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 5.5e-07;
 inline constexpr double kRotateZhfBoundDouble = 1.1e-15;

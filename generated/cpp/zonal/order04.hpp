@@ -24,13 +24,13 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 100 mul 28 add 165 fma 0 other;
 //             per extra vector 50 mul 3 add 80 fma 0 other
-// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, for det R = +1
-//           rotate relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, for det R = +1
-//           apply relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, for det R = +1
-//           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double); excess 1.61, for det R = +1 or -1
-//           blocks relative error 2.1e-07 (float), 4.5e-16 (double); excess 1.61, for det R = +1 or -1
-//           rotate_zhf relative error 1.3e-06 (float), 3.8e-15 (double); excess 1.50, for det R = +1 or -1
-//           times |f|, the excess times |R R^T - I|_F |f| added
+// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, det R = +1
+//           rotate relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, det R = +1
+//           apply relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, det R = +1
+//           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double); excess 1.61, det R = +1 or -1
+//           blocks relative error 2.1e-07 (float), 4.5e-16 (double); excess 1.61, det R = +1 or -1
+//           rotate_zhf relative error 1.3e-06 (float), 3.8e-15 (double); excess 1.50, det R = +1 or -1
+//           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -87,37 +87,37 @@ inline constexpr int kScalars = 33;
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 0;
 
-/// Largest relative error of rotate_channels, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 9.3e-07;
 inline constexpr double kRotateChannelsBoundDouble = 2.4e-15;
 inline constexpr double kRotateChannelsExcess = 2.56;
 
-/// Largest relative error of rotate, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 9.3e-07;
 inline constexpr double kRotateBoundDouble = 2.4e-15;
 inline constexpr double kRotateExcess = 2.56;
 
-/// Largest relative error of apply, for det R = +1, where R is orthonormal,
+/// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 9.3e-07;
 inline constexpr double kApplyBoundDouble = 2.4e-15;
 inline constexpr double kApplyExcess = 2.56;
 
-/// Largest relative error of rotate_accurate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 2.3e-07;
 inline constexpr double kRotateAccurateBoundDouble = 4.2e-16;
 inline constexpr double kRotateAccurateExcess = 1.61;
 
-/// Largest relative error of blocks, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kBlocksBoundFloat = 2.1e-07;
 inline constexpr double kBlocksBoundDouble = 4.5e-16;
 inline constexpr double kBlocksExcess = 1.61;
 
-/// Largest relative error of rotate_zhf, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 1.3e-06;
 inline constexpr double kRotateZhfBoundDouble = 3.8e-15;

@@ -24,13 +24,13 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 205 mul 62 add 298 fma 0 other;
 //             per extra vector 100 mul 7 add 178 fma 0 other
-// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double); excess 4.19, for det R = +1
-//           rotate relative error 1.7e-06 (float), 4.5e-15 (double); excess 4.19, for det R = +1
-//           apply relative error 1.7e-06 (float), 4.4e-15 (double); excess 4.19, for det R = +1
-//           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double); excess 2.13, for det R = +1 or -1
-//           blocks relative error 2.8e-07 (float), 4.9e-16 (double); excess 2.13, for det R = +1 or -1
-//           rotate_zhf relative error 3.7e-06 (float), 8.2e-15 (double); excess 2.00, for det R = +1 or -1
-//           times |f|, the excess times |R R^T - I|_F |f| added
+// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double); excess 4.19, det R = +1
+//           rotate relative error 1.7e-06 (float), 4.5e-15 (double); excess 4.19, det R = +1
+//           apply relative error 1.7e-06 (float), 4.4e-15 (double); excess 4.19, det R = +1
+//           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double); excess 2.13, det R = +1 or -1
+//           blocks relative error 2.8e-07 (float), 4.9e-16 (double); excess 2.13, det R = +1 or -1
+//           rotate_zhf relative error 3.7e-06 (float), 8.2e-15 (double); excess 2.00, det R = +1 or -1
+//           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -87,37 +87,37 @@ inline constexpr int kScalars = 52;
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 0;
 
-/// Largest relative error of rotate_channels, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 1.7e-06;
 inline constexpr double kRotateChannelsBoundDouble = 4.4e-15;
 inline constexpr double kRotateChannelsExcess = 4.19;
 
-/// Largest relative error of rotate, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 1.7e-06;
 inline constexpr double kRotateBoundDouble = 4.5e-15;
 inline constexpr double kRotateExcess = 4.19;
 
-/// Largest relative error of apply, for det R = +1, where R is orthonormal,
+/// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 1.7e-06;
 inline constexpr double kApplyBoundDouble = 4.4e-15;
 inline constexpr double kApplyExcess = 4.19;
 
-/// Largest relative error of rotate_accurate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 2.9e-07;
 inline constexpr double kRotateAccurateBoundDouble = 4.9e-16;
 inline constexpr double kRotateAccurateExcess = 2.13;
 
-/// Largest relative error of blocks, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kBlocksBoundFloat = 2.8e-07;
 inline constexpr double kBlocksBoundDouble = 4.9e-16;
 inline constexpr double kBlocksExcess = 2.13;
 
-/// Largest relative error of rotate_zhf, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 3.7e-06;
 inline constexpr double kRotateZhfBoundDouble = 8.2e-15;

@@ -24,13 +24,13 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 363 mul 100 add 499 fma 0 other;
 //             per extra vector 176 mul 21 add 324 fma 0 other
-// bound   : rotate_channels relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, for det R = +1
-//           rotate relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, for det R = +1
-//           apply relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, for det R = +1
-//           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double); excess 2.66, for det R = +1 or -1
-//           blocks relative error 3.1e-07 (float), 6.3e-16 (double); excess 2.66, for det R = +1 or -1
-//           rotate_zhf relative error 6.7e-06 (float), 1.4e-14 (double); excess 2.50, for det R = +1 or -1
-//           times |f|, the excess times |R R^T - I|_F |f| added
+// bound   : rotate_channels relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, det R = +1
+//           rotate relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, det R = +1
+//           apply relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, det R = +1
+//           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double); excess 2.66, det R = +1 or -1
+//           blocks relative error 3.1e-07 (float), 6.3e-16 (double); excess 2.66, det R = +1 or -1
+//           rotate_zhf relative error 6.7e-06 (float), 1.4e-14 (double); excess 2.50, det R = +1 or -1
+//           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -87,37 +87,37 @@ inline constexpr int kScalars = 73;
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 0;
 
-/// Largest relative error of rotate_channels, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 3.3e-06;
 inline constexpr double kRotateChannelsBoundDouble = 7.2e-15;
 inline constexpr double kRotateChannelsExcess = 6.35;
 
-/// Largest relative error of rotate, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 3.3e-06;
 inline constexpr double kRotateBoundDouble = 7.2e-15;
 inline constexpr double kRotateExcess = 6.35;
 
-/// Largest relative error of apply, for det R = +1, where R is orthonormal,
+/// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 3.3e-06;
 inline constexpr double kApplyBoundDouble = 7.2e-15;
 inline constexpr double kApplyExcess = 6.35;
 
-/// Largest relative error of rotate_accurate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 3.1e-07;
 inline constexpr double kRotateAccurateBoundDouble = 6.3e-16;
 inline constexpr double kRotateAccurateExcess = 2.66;
 
-/// Largest relative error of blocks, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kBlocksBoundFloat = 3.1e-07;
 inline constexpr double kBlocksBoundDouble = 6.3e-16;
 inline constexpr double kBlocksExcess = 2.66;
 
-/// Largest relative error of rotate_zhf, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 6.7e-06;
 inline constexpr double kRotateZhfBoundDouble = 1.4e-14;

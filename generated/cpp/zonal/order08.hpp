@@ -14,12 +14,12 @@
 //             per extra vector 63 mul 0 add 616 fma 0 other
 //           blocks 1794 mul 170 add 1952 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, for det R = +1
-//           rotate relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, for det R = +1
-//           apply relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, for det R = +1
-//           rotate_accurate relative error 4.1e-07 (float), 8.5e-16 (double); excess 3.50, for det R = +1 or -1
-//           blocks relative error 4.1e-07 (float), 8.4e-16 (double); excess 3.50, for det R = +1 or -1
-//           times |f|, the excess times |R R^T - I|_F |f| added
+// bound   : rotate_channels relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, det R = +1
+//           rotate relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, det R = +1
+//           apply relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, det R = +1
+//           rotate_accurate relative error 4.1e-07 (float), 8.5e-16 (double); excess 3.50, det R = +1 or -1
+//           blocks relative error 4.1e-07 (float), 8.4e-16 (double); excess 3.50, det R = +1 or -1
+//           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -71,31 +71,31 @@ inline constexpr int kScalars = 136;
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 0;
 
-/// Largest relative error of rotate_channels, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 1.3e-06;
 inline constexpr double kRotateChannelsBoundDouble = 3.0e-15;
 inline constexpr double kRotateChannelsExcess = 5.80;
 
-/// Largest relative error of rotate, for det R = +1, where R is orthonormal,
+/// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 1.3e-06;
 inline constexpr double kRotateBoundDouble = 3.0e-15;
 inline constexpr double kRotateExcess = 5.80;
 
-/// Largest relative error of apply, for det R = +1, where R is orthonormal,
+/// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 1.3e-06;
 inline constexpr double kApplyBoundDouble = 3.0e-15;
 inline constexpr double kApplyExcess = 5.80;
 
-/// Largest relative error of rotate_accurate, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 4.1e-07;
 inline constexpr double kRotateAccurateBoundDouble = 8.5e-16;
 inline constexpr double kRotateAccurateExcess = 3.50;
 
-/// Largest relative error of blocks, for det R = +1 or -1, where R is orthonormal,
+/// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kBlocksBoundFloat = 4.1e-07;
 inline constexpr double kBlocksBoundDouble = 8.4e-16;
