@@ -28,10 +28,10 @@ std::string header_text(int order) {
 
 Bound bound(int order, const std::string& kernel) {
     const std::string text = header_text(order);
-    const std::smatch match =
-        find(order, kernel, text,
-             " " + kernel +
-                 R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\); excess ([0-9.]+),)");
+    const std::smatch match = find(
+        order, kernel, text,
+        " " + kernel +
+            R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\), for det R = [^;]*;\s+//\s+excess ([0-9.]+))");
     return {std::stod(match[1]), std::stod(match[2]), std::stod(match[3])};
 }
 

@@ -24,12 +24,18 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 32 mul 23 add 40 fma 0 other;
 //             per extra vector 32 mul 8 add 40 fma 0 other
-// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double); excess 2.16, det R = +1
-//           rotate relative error 2.6e-07 (float), 6.6e-16 (double); excess 2.16, det R = +1 or -1
-//           apply relative error 1.6e-07 (float), 3.3e-16 (double); excess 1.08, det R = +1 or -1
-//           rotate_accurate relative error 1.6e-07 (float), 3.3e-16 (double); excess 1.08, det R = +1 or -1
-//           blocks relative error 1.8e-07 (float), 3.3e-16 (double); excess 1.08, det R = +1 or -1
-//           rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double); excess 1.00, det R = +1 or -1
+// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double), for det R = +1;
+//             excess 2.16
+//           rotate relative error 2.6e-07 (float), 6.6e-16 (double), for det R = +1 or -1;
+//             excess 2.16
+//           apply relative error 1.6e-07 (float), 3.3e-16 (double), for det R = +1 or -1;
+//             excess 1.08
+//           rotate_accurate relative error 1.6e-07 (float), 3.3e-16 (double), for det R = +1 or -1;
+//             excess 1.08
+//           blocks relative error 1.8e-07 (float), 3.3e-16 (double), for det R = +1 or -1;
+//             excess 1.08
+//           rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double), for det R = +1 or -1;
+//             excess 1.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998

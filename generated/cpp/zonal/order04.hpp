@@ -24,12 +24,18 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 100 mul 28 add 165 fma 0 other;
 //             per extra vector 50 mul 3 add 80 fma 0 other
-// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, det R = +1
-//           rotate relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, det R = +1
-//           apply relative error 9.3e-07 (float), 2.4e-15 (double); excess 2.56, det R = +1
-//           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double); excess 1.61, det R = +1 or -1
-//           blocks relative error 2.1e-07 (float), 4.5e-16 (double); excess 1.61, det R = +1 or -1
-//           rotate_zhf relative error 1.3e-06 (float), 3.8e-15 (double); excess 1.50, det R = +1 or -1
+// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double), for det R = +1;
+//             excess 2.56
+//           rotate relative error 9.3e-07 (float), 2.4e-15 (double), for det R = +1;
+//             excess 2.56
+//           apply relative error 9.3e-07 (float), 2.4e-15 (double), for det R = +1;
+//             excess 2.56
+//           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double), for det R = +1 or -1;
+//             excess 1.61
+//           blocks relative error 2.1e-07 (float), 4.5e-16 (double), for det R = +1 or -1;
+//             excess 1.61
+//           rotate_zhf relative error 1.3e-06 (float), 3.8e-15 (double), for det R = +1 or -1;
+//             excess 1.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

@@ -24,12 +24,18 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 205 mul 62 add 298 fma 0 other;
 //             per extra vector 100 mul 7 add 178 fma 0 other
-// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double); excess 4.19, det R = +1
-//           rotate relative error 1.7e-06 (float), 4.5e-15 (double); excess 4.19, det R = +1
-//           apply relative error 1.7e-06 (float), 4.4e-15 (double); excess 4.19, det R = +1
-//           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double); excess 2.13, det R = +1 or -1
-//           blocks relative error 2.8e-07 (float), 4.9e-16 (double); excess 2.13, det R = +1 or -1
-//           rotate_zhf relative error 3.7e-06 (float), 8.2e-15 (double); excess 2.00, det R = +1 or -1
+// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double), for det R = +1;
+//             excess 4.19
+//           rotate relative error 1.7e-06 (float), 4.5e-15 (double), for det R = +1;
+//             excess 4.19
+//           apply relative error 1.7e-06 (float), 4.4e-15 (double), for det R = +1;
+//             excess 4.19
+//           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double), for det R = +1 or -1;
+//             excess 2.13
+//           blocks relative error 2.8e-07 (float), 4.9e-16 (double), for det R = +1 or -1;
+//             excess 2.13
+//           rotate_zhf relative error 3.7e-06 (float), 8.2e-15 (double), for det R = +1 or -1;
+//             excess 2.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

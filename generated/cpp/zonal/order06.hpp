@@ -24,12 +24,18 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 363 mul 100 add 499 fma 0 other;
 //             per extra vector 176 mul 21 add 324 fma 0 other
-// bound   : rotate_channels relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, det R = +1
-//           rotate relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, det R = +1
-//           apply relative error 3.3e-06 (float), 7.2e-15 (double); excess 6.35, det R = +1
-//           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double); excess 2.66, det R = +1 or -1
-//           blocks relative error 3.1e-07 (float), 6.3e-16 (double); excess 2.66, det R = +1 or -1
-//           rotate_zhf relative error 6.7e-06 (float), 1.4e-14 (double); excess 2.50, det R = +1 or -1
+// bound   : rotate_channels relative error 3.3e-06 (float), 7.2e-15 (double), for det R = +1;
+//             excess 6.35
+//           rotate relative error 3.3e-06 (float), 7.2e-15 (double), for det R = +1;
+//             excess 6.35
+//           apply relative error 3.3e-06 (float), 7.2e-15 (double), for det R = +1;
+//             excess 6.35
+//           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double), for det R = +1 or -1;
+//             excess 2.66
+//           blocks relative error 3.1e-07 (float), 6.3e-16 (double), for det R = +1 or -1;
+//             excess 2.66
+//           rotate_zhf relative error 6.7e-06 (float), 1.4e-14 (double), for det R = +1 or -1;
+//             excess 2.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

@@ -14,11 +14,16 @@
 //             per extra vector 48 mul 0 add 406 fma 0 other
 //           blocks 1169 mul 124 add 1230 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 1.3e-06 (float), 2.2e-15 (double); excess 3.87, det R = +1
-//           rotate relative error 1.3e-06 (float), 2.2e-15 (double); excess 5.80, det R = +1
-//           apply relative error 1.2e-06 (float), 2.2e-15 (double); excess 5.80, det R = +1
-//           rotate_accurate relative error 3.8e-07 (float), 6.0e-16 (double); excess 3.00, det R = +1 or -1
-//           blocks relative error 3.8e-07 (float), 6.0e-16 (double); excess 3.00, det R = +1 or -1
+// bound   : rotate_channels relative error 1.3e-06 (float), 2.2e-15 (double), for det R = +1;
+//             excess 3.87
+//           rotate relative error 1.3e-06 (float), 2.2e-15 (double), for det R = +1;
+//             excess 5.80
+//           apply relative error 1.2e-06 (float), 2.2e-15 (double), for det R = +1;
+//             excess 5.80
+//           rotate_accurate relative error 3.8e-07 (float), 6.0e-16 (double), for det R = +1 or -1;
+//             excess 3.00
+//           blocks relative error 3.8e-07 (float), 6.0e-16 (double), for det R = +1 or -1;
+//             excess 3.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

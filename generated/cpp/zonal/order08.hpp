@@ -14,11 +14,16 @@
 //             per extra vector 63 mul 0 add 616 fma 0 other
 //           blocks 1794 mul 170 add 1952 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, det R = +1
-//           rotate relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, det R = +1
-//           apply relative error 1.3e-06 (float), 3.0e-15 (double); excess 5.80, det R = +1
-//           rotate_accurate relative error 4.1e-07 (float), 8.5e-16 (double); excess 3.50, det R = +1 or -1
-//           blocks relative error 4.1e-07 (float), 8.4e-16 (double); excess 3.50, det R = +1 or -1
+// bound   : rotate_channels relative error 1.3e-06 (float), 3.0e-15 (double), for det R = +1;
+//             excess 5.80
+//           rotate relative error 1.3e-06 (float), 3.0e-15 (double), for det R = +1;
+//             excess 5.80
+//           apply relative error 1.3e-06 (float), 3.0e-15 (double), for det R = +1;
+//             excess 5.80
+//           rotate_accurate relative error 4.1e-07 (float), 8.5e-16 (double), for det R = +1 or -1;
+//             excess 3.50
+//           blocks relative error 4.1e-07 (float), 8.4e-16 (double), for det R = +1 or -1;
+//             excess 3.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

@@ -14,11 +14,16 @@
 //             per extra vector 80 mul 0 add 888 fma 0 other
 //           blocks 2573 mul 228 add 2902 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 2.0e-06 (float), 4.1e-15 (double); excess 5.80, det R = +1
-//           rotate relative error 1.9e-06 (float), 4.1e-15 (double); excess 7.73, det R = +1
-//           apply relative error 1.9e-06 (float), 3.9e-15 (double); excess 7.73, det R = +1
-//           rotate_accurate relative error 5.6e-07 (float), 9.9e-16 (double); excess 4.00, det R = +1 or -1
-//           blocks relative error 5.6e-07 (float), 9.9e-16 (double); excess 4.00, det R = +1 or -1
+// bound   : rotate_channels relative error 2.0e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 5.80
+//           rotate relative error 1.9e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 7.73
+//           apply relative error 1.9e-06 (float), 3.9e-15 (double), for det R = +1;
+//             excess 7.73
+//           rotate_accurate relative error 5.6e-07 (float), 9.9e-16 (double), for det R = +1 or -1;
+//             excess 4.00
+//           blocks relative error 5.6e-07 (float), 9.9e-16 (double), for det R = +1 or -1;
+//             excess 4.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

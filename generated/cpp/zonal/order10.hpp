@@ -14,11 +14,16 @@
 //             per extra vector 99 mul 0 add 1230 fma 0 other
 //           blocks 3594 mul 290 add 4120 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 1.6e-06 (float), 4.1e-15 (double); excess 7.73, det R = +1
-//           rotate relative error 1.7e-06 (float), 4.1e-15 (double); excess 7.73, det R = +1
-//           apply relative error 1.6e-06 (float), 4.0e-15 (double); excess 7.73, det R = +1
-//           rotate_accurate relative error 5.6e-07 (float), 1.2e-15 (double); excess 4.50, det R = +1 or -1
-//           blocks relative error 5.6e-07 (float), 1.2e-15 (double); excess 4.50, det R = +1 or -1
+// bound   : rotate_channels relative error 1.6e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 7.73
+//           rotate relative error 1.7e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 7.73
+//           apply relative error 1.6e-06 (float), 4.0e-15 (double), for det R = +1;
+//             excess 7.73
+//           rotate_accurate relative error 5.6e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
+//             excess 4.50
+//           blocks relative error 5.6e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
+//             excess 4.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
