@@ -16,7 +16,11 @@ void expect_within_bounds(int order) {
     std::map<std::string, double> excess;
     for (const auto& [name, bound] : kernels.bounds) excess[name] = std::stod(bound.excess_text);
     const int random_count = order <= 10 ? 300 : 30;
-    const auto problems = accuracy::problems<T>(order, random_count, 30, 7 * order);
+    auto problems = accuracy::problems<T>(order, random_count, 30, 7 * order);
+    if (order > 10) {  // the oracle's time grows as order^4
+        std::size_t number = 0;
+        std::erase_if(problems, [&](const accuracy::Problem&) { return number++ % 3 != 0; });
+    }
     const auto contestants = graph_contestants<T>(order, kernels.kernels, excess);
     ASSERT_GE(contestants.size(), 4u);
     const auto worst = accuracy::worst_errors<T>(oracle::Rotation(order), problems, contestants);

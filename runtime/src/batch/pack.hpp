@@ -37,7 +37,7 @@ class Pack {
     friend HWY_INLINE Pack operator*(Pack a, Pack b) { return Pack(hn::Mul(a.lanes, b.lanes)); }
     friend HWY_INLINE Pack operator/(Pack a, Pack b) { return Pack(hn::Div(a.lanes, b.lanes)); }
     friend HWY_INLINE Pack operator-(Pack a) {
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128  // lanes that are no vector of the compiler
         return Pack(hn::Neg(a.lanes));
 #else
         // The compiler merges this minus into a multiply-add, but not the exclusive or of hn::Neg.
