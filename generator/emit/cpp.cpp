@@ -235,8 +235,8 @@ std::string print_constants(const Unit& unit) {
         const auto bound = unit.bounds.find(kernel.name);
         if (bound == unit.bounds.end()) continue;
         const std::string name = pascal_case(kernel.name);
-        text += fmt::format("\n/// Largest relative error of {} for {} where R is orthonormal,\n", kernel.name,
-                            domain_text(kernel));
+        text += fmt::format("\n/// Largest relative error of {} for {} where R is orthonormal,\n",
+                            kernel.name, domain_text(kernel));
         text += "/// and what is added for each unit of |R R^T - I|_F.\n";
         text += fmt::format("inline constexpr double k{}BoundFloat = {};\n", name, bound->second.float_text);
         text +=

@@ -36,7 +36,7 @@ struct Kernel {
     /// The kernel to call instead where a signal value holds several channels; empty: this one.
     std::string for_channels;
     bool needs_lobes = false;  ///< built from a lobe table
-    bool has_bound = false;  ///< an error bound is published for it
+    bool has_bound = false;    ///< an error bound is published for it
 
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
     void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }

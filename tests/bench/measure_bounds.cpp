@@ -33,6 +33,7 @@ constexpr double kExcessMargin = 1.1;
 struct Options {
     int rotations = 0;
     std::uint64_t seed = 1;
+    std::vector<int> orders;
     std::string out;
 };
 
@@ -158,14 +159,21 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
 }
 
 void run(const Options& options) {
-    std::vector<int> orders;
-    for (int n = kLargestOrder; n >= kSmallestOrder; --n) orders.push_back(n);
+    std::vector<int> orders = options.orders;
     std::map<int, nlohmann::ordered_json> measured;
+    if (orders.empty()) {
+        for (int n = kLargestOrder; n >= kSmallestOrder; --n) orders.push_back(n);
+    } else {
+        // The others stay as they are.
+        std::ifstream stream(options.out);
+        const auto file = nlohmann::ordered_json::parse(stream);
+        for (const auto& entry : file.at("bounds")) measured[entry.at("order").get<int>()].push_back(entry);
+    }
     std::mutex mutex;
     tbb::parallel_for_each(orders, [&](int n) {
         Options of_order = options;
         // As many rotations as cost about the same at every order, if not told otherwise.
-        if (options.rotations == 0) of_order.rotations = n <= 6 ? 500 : n <= 10 ? 150 : 40;
+        if (options.rotations == 0) of_order.rotations = n <= 2 ? 10000 : n <= 6 ? 500 : n <= 10 ? 150 : 40;
         const nlohmann::ordered_json entries = measure_order(n, of_order);
         const std::lock_guard lock(mutex);
         measured[n] = entries;
@@ -189,8 +197,11 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
     CLI::App app{"Measures the error bounds that generated banners publish."};
     zonal::Options options;
-    app.add_option("--rotations", options.rotations,
-                   "random rotations of each order and type (default: 500 to order 6, 150 to 10, 40 above)");
+    app.add_option(
+        "--rotations", options.rotations,
+        "random rotations of each order and type (default: 10000 at order 2, 500 to 6, 150 to 10, 40 above)");
+    app.add_option("--orders", options.orders, "to measure anew in the file that --out names (default: all)")
+        ->check(CLI::Range(zonal::kSmallestOrder, zonal::kLargestOrder));
     app.add_option("--seed", options.seed)->capture_default_str();
     app.add_option("--out", options.out, "the file to write")->required();
     CLI11_PARSE(app, argc, argv);
