@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "exact/factorization.hpp"
-#include "tables_folder.hpp"
 
 namespace zonal {
 

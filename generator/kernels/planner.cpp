@@ -90,7 +90,7 @@ std::vector<BandPlan> ways(int l) {
     if (l == 1) return all;  // a vector: nothing beats the product with R
     if (l == 2) all.push_back({BandMethod::proper_contraction, {}});
     if (l <= kLargestPlannedDenseBand) all.push_back({BandMethod::dense, {}});
-    for (const BandForms& forms : band_forms(l)) all.push_back({BandMethod::zxzxz, forms});
+    for (const BandForms& forms : band_forms()) all.push_back({BandMethod::zxzxz, forms});
     return all;
 }
 

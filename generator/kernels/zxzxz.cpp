@@ -4,8 +4,8 @@
 // y-polar orders are +m, one whose are -m. A z rotation mixes orders +m and -m only, so that a band is two
 // parts, the even and the odd m, each of a block J (+m) and a block K (-m). The forms of a part differ in
 // what they cost once per rotation and once per vector. Sources: Pinchon and Hoggan 2007 (rotation by a
-// constant matrix and z rotations); the parameters without angles, the blocks and the forms: README,
-// "Methods".
+// constant matrix and z rotations); the parameters without angles, the blocks and the forms are this
+// project's: euler_scalars, exact/orthogonal_block and PartForm say how.
 #include "kernels/zxzxz.hpp"
 
 #include <fmt/format.h>
@@ -385,7 +385,7 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
     return scalars;
 }
 
-std::vector<BandForms> band_forms(int) {
+std::vector<BandForms> band_forms() {
     std::vector<BandForms> all;
     for (const PartForm even : {PartForm::transform, PartForm::update, PartForm::reflect, PartForm::scaled})
         for (const PartForm odd : {PartForm::transform, PartForm::scaled}) all.push_back({even, odd});

@@ -36,8 +36,8 @@ struct EulerScalars {
 /// whatever the noise says; the product is right either way.
 EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order);
 
-/// The forms that band l can take.
-std::vector<BandForms> band_forms(int l);
+/// The forms that a band can take.
+std::vector<BandForms> band_forms();
 
 /// Turns band l >= 2 of the kernel's input 1 and stores it.
 void build_zxzxz_band(graph::Kernel& kernel, EulerScalars& scalars, int l, const BandForms& forms);

@@ -24,9 +24,9 @@ void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>&
         const banner::Bound bound = banner::bound(order, name);
         EXPECT_LE(worst[k].error, kIsFloat ? bound.float_bound : bound.double_bound)
             << name << ", order " << order << ", " << worst[k].name;
-        // Order 2 is but a product with R. Its three roundings a row may give 3√3 half units, 3.1e-7; the
-        // contract's 1.2e-7 is what one in 10^4 cases exceeds by 2 %.
-        if (order == 2) continue;
+        // Order 2 in float, a product with R of three roundings a row, exceeds the contract by 2 % in one
+        // case of 60 000: only what is published is held there.
+        if (order == 2 && kIsFloat) continue;
         EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))
             << name << ", order " << order << ", " << worst[k].name_of_rotations;
     }
