@@ -339,7 +339,25 @@ TYPED_TEST(runtime_batch, nan_in_a_rotation_spoils_its_vector_only) {
     });
 }
 
-TYPED_TEST(runtime_batch, batch_larger_than_the_caches_matches_single_rotations) {
+TYPED_TEST(runtime_batch, layouts_larger_than_the_caches_match_single_rotations) {
+    zonal::batch::set_streamed_bytes(0);
+    this->on_every_target_and_order([](int order) {
+        for (const auto arrangement : {ChannelArrangement::interleaved, ChannelArrangement::channel_major})
+            for (const int channels : {1, 3, 5})
+                for (const bool dc_apart : {false, true})
+                    for (const bool in_place : {false, true})
+                        expect_turned<TypeParam>({.order = order,
+                                                  .layout = {.count = 83,
+                                                             .channels = channels,
+                                                             .arrangement = arrangement,
+                                                             .dc_apart = dc_apart},
+                                                  .form = channels == 1 ? Form::matrices : Form::one_for_all,
+                                                  .in_place = in_place,
+                                                  .offset = 3});
+    });
+}
+
+TYPED_TEST(runtime_batch, long_runs_at_any_address_match_single_rotations) {
     using T = TypeParam;
     const int order = zonal::compiled_orders().front();
     const std::size_t count = 20005;

@@ -93,6 +93,7 @@ batch::Job<T> checked_job(int order, const Runs<T>& rotations, batch::RotationFo
     if (from.data != to.data) check_apart(from, to);
     check_apart(rotations, to);
     const std::size_t moved = (2 * length * layout.count + rotations.length * rotations.count) * sizeof(T);
+    const bool is_large = moved > batch::streamed_bytes();
     return {.rotations = rotations.data,
             .rotation_stride = rotations.stride,
             .form = form,
@@ -103,7 +104,8 @@ batch::Job<T> checked_job(int order, const Runs<T>& rotations, batch::RotationFo
             .channels = channels,
             .is_interleaved = channels > 1 && layout.arrangement == ChannelArrangement::interleaved,
             .is_dc_apart = layout.dc_apart,
-            .is_streamed = stride == length && from.data != to.data && moved > batch::streamed_bytes()};
+            .is_large = is_large,
+            .is_streamed = is_large && stride == length && from.data != to.data};
 }
 
 template <class T>

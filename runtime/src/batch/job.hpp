@@ -22,6 +22,7 @@ struct Job {
     std::size_t channels;
     bool is_interleaved;  ///< never with one channel
     bool is_dc_apart;
+    bool is_large;     ///< larger than the caches
     bool is_streamed;  ///< write past the caches; only where vectors touch and `in` is not `out`
 };
 

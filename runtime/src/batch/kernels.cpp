@@ -7,6 +7,8 @@
 // function of the standard library could be the copy that the linker keeps for every processor.
 
 #define HWY_COMPILE_ONLY_STATIC
+#include <type_traits>
+
 #include "job.hpp"
 #include "order_kernels.hpp"
 #include "pack.hpp"
@@ -35,16 +37,23 @@ constexpr std::size_t kMostInterleaved = 4;
 constexpr std::size_t kMostStreamed = 4;
 
 /// More than this much code is better called than repeated.
-constexpr int kLargestInlined = 4;
+constexpr int kLargestInlined = 6;
 
-/// Bytes ahead of the vectors in work that are fetched: a few hundred nanoseconds of work at the speed of
-/// memory, and well within the first cache.
-constexpr std::size_t kAhead = 2048;
+/// Bytes ahead of the vectors in work that are fetched into the first cache, and farther ahead into the
+/// second, where batches are larger than the caches: the first cache alone does not have enough lines under
+/// way to hide memory.
+constexpr std::size_t kNear = 4096;
+constexpr std::size_t kFar = 32768;
 
-/// Fetches the cache lines that lie kAhead behind `length` values.
+/// Fetches cache lines ahead of `length` values.
 HWY_INLINE void fetch_ahead(const T* values, std::size_t length) {
-    const char* bytes = reinterpret_cast<const char*>(values) + kAhead;
-    for (std::size_t i = 0; i < length * sizeof(T); i += 64) hwy::Prefetch(bytes + i);
+    const char* bytes = reinterpret_cast<const char*>(values);
+    for (std::size_t i = 0; i < length * sizeof(T); i += 64) {
+        hwy::Prefetch(bytes + kNear + i);
+#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
+        __builtin_prefetch(bytes + kFar + i, 0, 2);
+#endif
+    }
 }
 
 /// Rotation `form` of kWidth rows as matrices.
@@ -108,10 +117,6 @@ class Sign {
 };
 
 template <int N>
-HWY_NOINLINE ZONAL_FLATTEN void rotate_called(const P* R, P* f) {
-    PackKernels<N>::rotate(R, f);
-}
-template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void prepare_called(const P* R, P* scalars) {
     PackKernels<N>::prepare(R, scalars);
 }
@@ -126,7 +131,7 @@ class Once {
   public:
     static constexpr bool kHasOwn = true;
     /// A copy of its own in every round of a loop stays in registers.
-    static constexpr bool kIsLocal = !Sign<N, kForm>::kMayMirror && N <= kLargestInlined;
+    static constexpr bool kIsLocal = true;
 
     HWY_INLINE void load(const T* rows, std::size_t stride) {
         load_rotations<kForm>(rows, stride, R_);
@@ -134,10 +139,7 @@ class Once {
     }
     HWY_INLINE void operator()(P* f) const {
         sign_.negate_odd_bands(f);
-        if constexpr (N <= kLargestInlined)
-            PackKernels<N>::rotate(R_, f);
-        else
-            rotate_called<N>(R_, f);
+        PackKernels<N>::rotate(R_, f);
     }
 
   private:
@@ -145,18 +147,24 @@ class Once {
     Sign<N, kForm> sign_;
 };
 
-/// The same for many channels (kIsOwn) or for all vectors: what depends on the rotations only is kept.
-template <int N, RotationForm kForm, bool kIsOwn>
+enum class Use { one_channel, channels, all_vectors };
+
+/// The same in two steps: what depends on the rotations only is kept. For one channel that is faster than at
+/// once where there are divisions: fewer values wait for them in registers.
+template <int N, RotationForm kForm, Use kUse>
 class Prepared {
   public:
-    static constexpr bool kHasOwn = kIsOwn;
-    static constexpr bool kIsLocal = false;
+    static constexpr bool kHasOwn = kUse != Use::all_vectors;
+    static constexpr bool kIsLocal = kUse == Use::one_channel;
 
     HWY_INLINE void load(const T* rows, std::size_t stride) {
         P R[9];
         load_rotations<kForm>(rows, stride, R);
         sign_.take_from(R);
-        prepare_called<N>(R, scalars_);
+        if constexpr (N <= kLargestInlined && kHasOwn)
+            PackKernels<N>::prepare(R, scalars_);
+        else
+            prepare_called<N>(R, scalars_);
     }
     HWY_INLINE void operator()(P* f) const {
         sign_.negate_odd_bands(f);
@@ -184,14 +192,14 @@ class Batch {
 
     void run(RotationForm form, Turn& turn) {
         std::size_t done = 0;
-        if (!needs_copies()) {
-            if (job_.is_streamed && job_.channels <= kMostStreamed) {
-                Writer writer(job_.out);
-                done = turn_rows(turn, &writer);
-                writer.finish();
-            } else {
-                done = turn_rows(turn, nullptr);
-            }
+        if (needs_copies()) {
+        } else if (job_.is_streamed && job_.channels <= kMostStreamed) {
+            Writer writer(job_.out);
+            done = turn_rows<Large>(turn, &writer);
+            writer.finish();
+        } else {
+            using Usual = std::conditional_t<(kFirst == 0 && N <= kLargestInlined), Small, Large>;
+            done = job_.is_large ? turn_rows<Large>(turn, nullptr) : turn_rows<Usual>(turn, nullptr);
         }
         turn_rest(form, turn, done);
     }
@@ -206,7 +214,40 @@ class Batch {
         return kColumns < kBlock<T> || (job_.is_interleaved && job_.channels > kMostInterleaved);
     }
 
+    /// What goes on between transpositions of kBlock columns: nothing in batches that fit the caches ...
+    struct Small {
+        HWY_INLINE Small(const Job<T>&, const T*, Writer*) {}
+        HWY_INLINE void read() {}
+        HWY_INLINE void write() {}
+    };
+
+    /// ... and reading ahead and writing what waits, as fast as columns are read and written, in others.
+    class Large {
+      public:
+        HWY_INLINE Large(const Job<T>& job, const T* in, Writer* writer)
+            : in_(job.is_large ? in : nullptr), writer_(writer) {}
+
+        HWY_INLINE void read() {
+            if (in_ == nullptr) return;
+            fetch_ahead(in_, kWidth * kBlock<T>);
+            in_ += kWidth * kBlock<T>;
+            write();
+        }
+        HWY_INLINE void write() {
+            if (HWY_LIKELY(writer_ != nullptr)) writer_->template write_some<kPace>();
+        }
+
+      private:
+        /// Half of the lines of kBlock columns: as many are written while reading as while writing.
+        static constexpr std::size_t kLine = Writer::kLineBytes / sizeof(T);
+        static constexpr std::size_t kPace = kWidth * kBlock<T> < 2 * kLine ? kLine : kWidth * kBlock<T> / 2;
+
+        const T* in_;
+        Writer* writer_;
+    };
+
     /// All whole packs; returns the number of vectors turned.
+    template <class Flow>
     HWY_NOINLINE ZONAL_FLATTEN std::size_t turn_rows(Turn& turn, Writer* writer) const {
         const std::size_t stride = job_.stride;
         const T* in = job_.in;
@@ -218,19 +259,20 @@ class Batch {
             if constexpr (Turn::kIsLocal) {
                 Turn local;
                 local.load(rotations, job_.rotation_stride);
-                turn_row(local, in, to);
+                turn_row(local, in, to, stride, Flow(job_, in, writer));
+            } else if constexpr (Turn::kHasOwn) {
+                turn.load(rotations, job_.rotation_stride);
+                turn_channels(turn, in, to, Flow(job_, in, writer));
             } else {
-                if constexpr (Turn::kHasOwn) turn.load(rotations, job_.rotation_stride);
                 if (HWY_LIKELY(job_.channels == 1))
-                    turn_row(turn, in, to);
+                    turn_row(turn, in, to, stride, Flow(job_, in, writer));
                 else
-                    turn_channels(turn, in, to);
+                    turn_channels(turn, in, to, Flow(job_, in, writer));
             }
             if constexpr (Turn::kHasOwn) {
-                fetch_ahead(rotations, kWidth * job_.rotation_stride);
+                if (job_.is_large) fetch_ahead(rotations, kWidth * job_.rotation_stride);
                 rotations += kWidth * job_.rotation_stride;
             }
-            fetch_ahead(in, kWidth * stride);
             if (writer != nullptr) writer->advance(kWidth * stride);
             in += kWidth * stride;
             out += kWidth * stride;
@@ -238,37 +280,36 @@ class Batch {
         return k;
     }
 
-    HWY_INLINE void turn_row(const Turn& turn, const T* in, T* out) const {
+    template <class Flow>
+    HWY_INLINE void turn_row(const Turn& turn, const T* in, T* out, std::size_t stride, Flow flow) const {
         P f[kCoefficients];
         if constexpr (kFirst == 1) f[0].lanes = hn::Zero(Tag<T>());
-        read_columns<kColumns>(in, job_.stride, f + kFirst);
+        read_columns<kColumns>(in, stride, f + kFirst, [&] { flow.read(); });
         turn(f);
-        write_columns<kColumns>(f + kFirst, out, job_.stride);
+        write_columns<kColumns>(f + kFirst, out, stride, [&] { flow.write(); });
     }
 
-    HWY_NOINLINE void turn_channels(const Turn& turn, const T* in, T* out) const {
-        if (job_.is_interleaved) return turn_interleaved(turn, in, out);
+    template <class Flow>
+    HWY_NOINLINE void turn_channels(const Turn& turn, const T* in, T* out, Flow flow) const {
+        if (job_.is_interleaved) return turn_interleaved(turn, in, out, flow);
         for (std::size_t channel = 0; channel < job_.channels; ++channel)
             turn_channel(turn, in + channel * kColumns, out + channel * kColumns, job_.stride);
     }
 
     HWY_NOINLINE void turn_channel(const Turn& turn, const T* in, T* out, std::size_t stride) const {
-        P f[kCoefficients];
-        if constexpr (kFirst == 1) f[0].lanes = hn::Zero(Tag<T>());
-        read_columns<kColumns>(in, stride, f + kFirst);
-        turn(f);
-        write_columns<kColumns>(f + kFirst, out, stride);
+        turn_row(turn, in, out, stride, Small(job_, nullptr, nullptr));
     }
 
-    HWY_NOINLINE void turn_interleaved(const Turn& turn, const T* in, T* out) const {
+    template <class Flow>
+    HWY_INLINE void turn_interleaved(const Turn& turn, const T* in, T* out, Flow flow) const {
         P f[kCoefficients * kMostInterleaved];
         const std::size_t columns = kColumns * job_.channels;
-        read_slots(in, job_.stride, slots_, columns, f);
+        read_slots(in, job_.stride, slots_, columns, f, [&] { flow.read(); });
         for (std::size_t channel = 0; channel < job_.channels; ++channel) {
             if constexpr (kFirst == 1) f[channel * kCoefficients].lanes = hn::Zero(Tag<T>());
             turn(f + channel * kCoefficients);
         }
-        write_slots(f, slots_, columns, out, job_.stride);
+        write_slots(f, slots_, columns, out, job_.stride, [&] { flow.write(); });
     }
 
     /// Vectors from k on, by way of the stack.
@@ -324,8 +365,10 @@ void run_each(const Job<T>& job) {
 
 template <int N, int kFirst, RotationForm kForm>
 void each(const Job<T>& job) {
-    job.channels == 1 ? run_each<N, kFirst, Once<N, kForm>>(job)
-                      : run_each<N, kFirst, Prepared<N, kForm, true>>(job);
+    constexpr bool kIsOnce = PackKernels<N>::kTakesMirrors;  // products only: nothing that is worth keeping
+    using One = std::conditional_t<kIsOnce, Once<N, kForm>, Prepared<N, kForm, Use::one_channel>>;
+    job.channels == 1 ? run_each<N, kFirst, One>(job)
+                      : run_each<N, kFirst, Prepared<N, kForm, Use::channels>>(job);
 }
 
 template <int N, int kFirst>
@@ -336,7 +379,7 @@ void each(const Job<T>& job) {
 
 template <int N, int kFirst>
 void all(const Job<T>& job) {
-    using Turn = Prepared<N, RotationForm::matrix, false>;
+    using Turn = Prepared<N, RotationForm::matrix, Use::all_vectors>;
     Turn turn;
     turn.load(job.rotations, 0);  // stride 0: the same in every lane
     Batch<N, kFirst, Turn>(job).run(job.form, turn);

@@ -2,9 +2,9 @@
 
 // Writes one long run of values past the caches, whatever its alignment: values are staged in memory that
 // stays in cache, at their distance from a cache line, and leave it as whole lines. The ends of the run,
-// which share a line with foreign values, are written by ordinary stores. What was staged leaves one step
-// later: then it is read back without waiting for the stores that put it there, and writing to memory goes on
-// beside reading instead of in bursts between.
+// which share a line with foreign values, are written by ordinary stores. What was staged leaves during the
+// next step, a few lines at a time between its other work: then it is read back without waiting for the
+// stores that put it there, and writing to memory goes on beside reading instead of in bursts.
 
 #include <hwy/cache_control.h>
 
@@ -32,8 +32,10 @@ class Stream {
         write_waiting();
         fill_ += count;
         const std::size_t whole = fill_ - fill_ % kLine;
+        next_ = stage_[current_];
+        next_line_ = line_;
         waiting_ = whole;
-        waiting_line_ = line_;
+        if (HWY_UNLIKELY(foreign_ > 0 && whole > 0)) write_shared_line();
         line_ += whole;
         fill_ -= whole;
         const T* rest = stage_[current_] + whole;
@@ -42,29 +44,39 @@ class Stream {
             hn::Store(hn::Load(Tag<T>(), rest + j), Tag<T>(), stage_[current_] + j);
     }
 
+    /// Writes kCount of the values that wait, whole lines, if there are as many.
+    template <std::size_t kCount>
+    HWY_INLINE void write_some() {
+        static_assert(kCount % kLine == 0);
+        if (waiting_ < kCount) return;
+        for (std::size_t i = 0; i < kCount; i += kLanes<T>)
+            hn::Stream(hn::Load(Tag<T>(), next_ + i), Tag<T>(), next_line_ + i);
+        next_ += kCount;
+        next_line_ += kCount;
+        waiting_ -= kCount;
+    }
+
+    HWY_INLINE void write_waiting() {
+        while (waiting_ > 0) write_some<kLine>();
+    }
+
     void finish() {
         write_waiting();
         for (std::size_t i = foreign_; i < fill_; ++i) line_[i] = stage_[current_][i];
         hwy::FlushStream();
     }
 
-  private:
     static constexpr std::size_t kLineBytes = 64;
     static constexpr std::size_t kLine = kLineBytes / sizeof(T);
 
-    /// Whole lines in the stage that is not current.
-    HWY_INLINE void write_waiting() {
-        const T* stage = stage_[current_ ^ 1];
-        std::size_t i = 0;
-        if (HWY_UNLIKELY(foreign_ > 0 && waiting_ > 0)) {
-            for (std::size_t j = foreign_; j < kLine; ++j) waiting_line_[j] = stage[j];
-            foreign_ = 0;
-            i = kLine;
-        }
-        for (; i < waiting_; i += kLine)
-            for (std::size_t j = 0; j < kLine; j += kLanes<T>)
-                hn::Stream(hn::Load(Tag<T>(), stage + i + j), Tag<T>(), waiting_line_ + i + j);
-        waiting_ = 0;
+  private:
+    /// The first line of the run, which begins with values that are not of the run.
+    HWY_NOINLINE void write_shared_line() {
+        for (std::size_t j = foreign_; j < kLine; ++j) line_[j] = stage_[current_][j];
+        foreign_ = 0;
+        next_ += kLine;
+        next_line_ += kLine;
+        waiting_ -= kLine;
     }
 
     alignas(kLineBytes) T stage_[2][(kRoom + 3 * kLine) / kLine * kLine];
@@ -72,8 +84,9 @@ class Stream {
     T* line_;              ///< the place of the current stage's first value
     std::size_t fill_;     ///< values in the current stage
     int current_ = 0;
-    T* waiting_line_ = nullptr;  ///< the same of the other stage
-    std::size_t waiting_ = 0;    ///< values that wait there
+    const T* next_ = nullptr;  ///< in the other stage: what waits, and the line where it goes
+    T* next_line_ = nullptr;
+    std::size_t waiting_ = 0;  ///< values that wait there, whole lines
 };
 
 }  // namespace

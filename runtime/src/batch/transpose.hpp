@@ -3,8 +3,10 @@
 // Reads rows (vectors) into packs of columns (coefficients) and writes them back, in registers.
 // A register is seen as blocks of 16 bytes, kBlock values each. One load and inserts from memory bring block
 // b of register j the columns c ... c + kBlock - 1 of row b kBlock + j; a transposition within the blocks
-// leaves in register j column c + j of every row, in the order of the rows. Writing is the reverse.
-// Columns that are left over are met by a last block that overlaps the one before.
+// leaves in register j column c + j of every row, in the order of the rows. Writing is the reverse, row by
+// row: processors write two blocks at once when both go to one cache line. Columns that are left over are met
+// by a last block that overlaps the one before. What `between` does happens once for every kBlock columns,
+// beside the transpositions.
 
 #include "pack.hpp"
 
@@ -21,8 +23,8 @@ HWY_INLINE Lanes<T> load_blocks(Tag<T> d, const T* p, std::size_t) {
     return hn::LoadU(d, p);
 }
 
-template <class T>
-HWY_INLINE void store_blocks(Tag<T> d, Lanes<T> value, T* p, std::size_t) {
+template <std::size_t kIndex, class T>
+HWY_INLINE void store_one_block(Tag<T> d, Lanes<T> value, T* p) {
     hn::StoreU(value, d, p);
 }
 
@@ -34,24 +36,40 @@ HWY_INLINE void transpose_blocks(Lanes<T> (&)[1]) {}
 /// Block b from memory at p + b * step.
 template <class D, class T>
 HWY_INLINE hn::Vec<D> load_blocks(D d, const T* p, std::size_t step) {
-    if constexpr (hn::MaxLanes(D()) <= kBlock<T>) {
+    constexpr std::size_t kBlocks = hn::MaxLanes(D()) / kBlock<T>;
+    if constexpr (kBlocks == 1) {
         return hn::LoadU(d, p);
-    } else {
+    } else if constexpr (kBlocks == 2) {
         const hn::Half<D> half;
-        constexpr std::size_t kBlocks = hn::MaxLanes(hn::Half<D>()) / kBlock<T>;
-        return hn::Combine(d, load_blocks(half, p + kBlocks * step, step), load_blocks(half, p, step));
+        return hn::Combine(d, hn::LoadU(half, p + step), hn::LoadU(half, p));
+    } else {
+#if HWY_TARGET == HWY_AVX3  // one masked load each; halves would take a shuffle more
+        const auto block = [&](std::size_t b) {
+            return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + b * step));
+        };
+        __m512i values = _mm512_castsi128_si512(block(0));
+        values = _mm512_mask_broadcast_i32x4(values, 0x00F0, block(1));
+        values = _mm512_mask_broadcast_i32x4(values, 0x0F00, block(2));
+        values = _mm512_mask_broadcast_i32x4(values, 0xF000, block(3));
+        return hn::BitCast(d, hn::Vec<hn::RebindToUnsigned<D> >{values});
+#endif
     }
 }
 
-template <class D, class T>
-HWY_INLINE void store_blocks(D d, hn::Vec<D> values, T* p, std::size_t step) {
-    if constexpr (hn::MaxLanes(D()) <= kBlock<T>) {
+/// Writes block kIndex of a register.
+template <std::size_t kIndex, class D, class T>
+HWY_INLINE void store_one_block(D d, hn::Vec<D> values, T* p) {
+    constexpr std::size_t kBlocks = hn::MaxLanes(D()) / kBlock<T>;
+    if constexpr (kBlocks == 1) {
         hn::StoreU(values, d, p);
-    } else {
+    } else if constexpr (kBlocks == 2) {
         const hn::Half<D> half;
-        constexpr std::size_t kBlocks = hn::MaxLanes(hn::Half<D>()) / kBlock<T>;
-        store_blocks(half, hn::LowerHalf(half, values), p, step);
-        store_blocks(half, hn::UpperHalf(half, values), p + kBlocks * step, step);
+        hn::StoreU(kIndex == 0 ? hn::LowerHalf(half, values) : hn::UpperHalf(half, values), half, p);
+    } else {
+#if HWY_TARGET == HWY_AVX3
+        const __m512i bits = hn::BitCast(hn::RebindToUnsigned<D>(), values).raw;
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm512_extracti32x4_epi32(bits, kIndex));
+#endif
     }
 }
 
@@ -88,22 +106,35 @@ HWY_INLINE void load_block(const T* rows, std::size_t stride, Lanes<T> (&columns
     transpose_blocks<T>(columns);
 }
 
-template <class T>
-HWY_INLINE void store_block(Lanes<T> (&columns)[kBlock<T>], T* rows, std::size_t stride) {
-    transpose_blocks<T>(columns);
-    for (std::size_t j = 0; j < kBlock<T>; ++j)
-        store_blocks(Tag<T>(), columns[j], rows + j * stride, kBlock<T> * stride);
+/// Row by row of the transposed registers of neighbouring blocks; then `after(row, number of the row)`.
+template <std::size_t kCount, std::size_t kIndex = 0, class T, class After>
+HWY_INLINE void store_rows(const Lanes<T> (&blocks)[kCount][kBlock<T>], T* row, std::size_t stride,
+                           const After& after) {
+    for (std::size_t j = 0; j < kBlock<T>; ++j, row += stride) {
+        for (std::size_t b = 0; b < kCount; ++b)
+            store_one_block<kIndex>(Tag<T>(), blocks[b][j], row + b * kBlock<T>);
+        after(row, kIndex * kBlock<T> + j);
+    }
+    if constexpr ((kIndex + 1) * kBlock<T> < kLanes<T>)
+        store_rows<kCount, kIndex + 1>(blocks, row, stride, after);
 }
 
 /// Values a row must have in memory, so that reading or writing kColumns of it stays within it.
 template <class T, std::size_t kColumns>
 inline constexpr std::size_t kRowLength = kColumns < kBlock<T> ? kBlock<T> : kColumns;
 
-template <std::size_t kColumns, class T>
-HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns) {
+struct Nothing {
+    template <class... Arguments>
+    HWY_INLINE void operator()(Arguments...) const {}
+};
+
+template <std::size_t kColumns, class T, class Between = Nothing>
+HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns,
+                             const Between& between = {}) {
     constexpr std::size_t kWhole = kColumns - kColumns % kBlock<T>;
     Lanes<T> block[kBlock<T>];
     for (std::size_t c = 0; c < kWhole; c += kBlock<T>) {
+        between();
         load_block(rows + c, stride, block);
         for (std::size_t j = 0; j < kBlock<T>; ++j) columns[c + j].lanes = block[j];
     }
@@ -114,47 +145,76 @@ HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns
     }
 }
 
-template <std::size_t kColumns, class T>
-HWY_INLINE void write_columns(const Pack<T>* columns, T* rows, std::size_t stride) {
-    constexpr std::size_t kWhole = kColumns - kColumns % kBlock<T>;
-    Lanes<T> block[kBlock<T>];
-    for (std::size_t c = 0; c < kWhole; c += kBlock<T>) {
-        for (std::size_t j = 0; j < kBlock<T>; ++j) block[j] = columns[c + j].lanes;
-        store_block(block, rows + c, stride);
+/// Blocks that are written together: what the registers of all rows hold.
+template <class T>
+inline constexpr std::size_t kGroup = kLanes<T> / kBlock<T>;
+
+template <std::size_t kCount, class T, class Between, class After>
+HWY_INLINE void write_blocks(const Pack<T>* columns, T* rows, std::size_t stride, const Between& between,
+                             const After& after) {
+    Lanes<T> blocks[kCount][kBlock<T>];
+    for (std::size_t b = 0; b < kCount; ++b) {
+        between();
+        for (std::size_t j = 0; j < kBlock<T>; ++j) blocks[b][j] = columns[b * kBlock<T> + j].lanes;
+        transpose_blocks<T>(blocks[b]);
     }
-    if constexpr (kColumns - kWhole == 1) {  // cheaper one by one, through memory
+    store_rows<kCount>(blocks, rows, stride, after);
+}
+
+template <std::size_t kColumns, class T, class Between = Nothing>
+HWY_INLINE void write_columns(const Pack<T>* columns, T* rows, std::size_t stride,
+                              const Between& between = {}) {
+    constexpr std::size_t kBlocks = kColumns / kBlock<T>;
+    constexpr std::size_t kWhole = kBlocks * kBlock<T>;
+    constexpr std::size_t kRest = kBlocks == 0 ? 0 : (kBlocks - 1) % kGroup<T> + 1;  ///< of the last group
+    for (std::size_t b = 0; b < kBlocks - kRest; b += kGroup<T>)
+        write_blocks<kGroup<T> >(columns + b * kBlock<T>, rows + b * kBlock<T>, stride, between, Nothing());
+    constexpr std::size_t kFirst = kWhole - kRest * kBlock<T>;
+    if constexpr (kRest > 0 && kColumns - kWhole == 1) {  // a single column goes through memory
         HWY_ALIGN T last[kLanes<T>];
         hn::Store(columns[kWhole].lanes, Tag<T>(), last);
-        for (std::size_t k = 0; k < kLanes<T>; ++k) rows[k * stride + kWhole] = last[k];
-    } else if constexpr (kWhole < kColumns) {
-        constexpr std::size_t kLast = kRowLength<T, kColumns> - kBlock<T>;
-        for (std::size_t j = 0; j < kBlock<T>; ++j)
-            block[j] = kLast + j < kColumns ? columns[kLast + j].lanes : hn::Zero(Tag<T>());
-        store_block(block, rows + kLast, stride);
+        write_blocks<kRest>(columns + kFirst, rows + kFirst, stride, between,
+                            [&](T* row, std::size_t k) { row[kRest * kBlock<T>] = last[k]; });
+    } else {
+        if constexpr (kRest > 0)
+            write_blocks<kRest>(columns + kFirst, rows + kFirst, stride, between, Nothing());
+        if constexpr (kWhole < kColumns) {
+            constexpr std::size_t kLast = kRowLength<T, kColumns> - kBlock<T>;
+            Pack<T> padded[kBlock<T>];
+            for (std::size_t j = 0; j < kBlock<T>; ++j)
+                padded[j].lanes = kLast + j < kColumns ? columns[kLast + j].lanes : hn::Zero(Tag<T>());
+            write_blocks<1>(padded, rows + kLast, stride, Nothing(), Nothing());
+        }
     }
 }
 
 /// The same where column c is kept in columns[slots[c]] and their number is known at run time only;
 /// count >= kBlock.
-template <class T>
+template <class T, class Between>
 HWY_INLINE void read_slots(const T* rows, std::size_t stride, const unsigned short* slots, std::size_t count,
-                           Pack<T>* columns) {
+                           Pack<T>* columns, const Between& between) {
     Lanes<T> block[kBlock<T>];
     for (std::size_t next = 0; next < count; next += kBlock<T>) {
+        between();
         const std::size_t c = next + kBlock<T> <= count ? next : count - kBlock<T>;
         load_block(rows + c, stride, block);
         for (std::size_t j = 0; j < kBlock<T>; ++j) columns[slots[c + j]].lanes = block[j];
     }
 }
 
-template <class T>
+template <class T, class Between>
 HWY_INLINE void write_slots(const Pack<T>* columns, const unsigned short* slots, std::size_t count, T* rows,
-                            std::size_t stride) {
-    Lanes<T> block[kBlock<T>];
-    for (std::size_t next = 0; next < count; next += kBlock<T>) {
-        const std::size_t c = next + kBlock<T> <= count ? next : count - kBlock<T>;
-        for (std::size_t j = 0; j < kBlock<T>; ++j) block[j] = columns[slots[c + j]].lanes;
-        store_block(block, rows + c, stride);
+                            std::size_t stride, const Between& between) {
+    Pack<T> group[kGroup<T> * kBlock<T>];
+    std::size_t c = 0;
+    for (; c + kGroup<T> * kBlock<T> <= count; c += kGroup<T> * kBlock<T>) {
+        for (std::size_t j = 0; j < kGroup<T> * kBlock<T>; ++j) group[j] = columns[slots[c + j]];
+        write_blocks<kGroup<T> >(group, rows + c, stride, between, Nothing());
+    }
+    for (; c < count; c += kBlock<T>) {
+        const std::size_t from = c + kBlock<T> <= count ? c : count - kBlock<T>;
+        for (std::size_t j = 0; j < kBlock<T>; ++j) group[j] = columns[slots[from + j]];
+        write_blocks<1>(group, rows + from, stride, between, Nothing());
     }
 }
 
