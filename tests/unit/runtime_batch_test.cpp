@@ -16,6 +16,7 @@
 #include "zonal/basis.hpp"
 #include "zonal/batch.hpp"
 #include "zonal/error.hpp"
+#include "zonal/parallel.hpp"
 #include "zonal/rotate.hpp"
 
 namespace {
@@ -105,7 +106,7 @@ class Batch {
         out.assign(in.size(), kGuard<T>);
     }
 
-    void rotate() {
+    void rotate(const zonal::Executor& executor = {}) {
         const std::span<const T> from = std::span<const T>(in).subspan(c.offset, c.extent());
         if (c.in_place) out = in;
         const std::span<T> to = std::span<T>(out).subspan(c.offset, c.extent());
@@ -113,12 +114,12 @@ class Batch {
         const std::span<const T> given = std::span<const T>(rotation_values).subspan(c.offset);
         if (c.form == Form::matrices)
             zonal::rotate_each(c.order, zonal::RotationMatrices<T>(given, rotation_stride), c.layout, source,
-                               to);
+                               to, executor);
         else if (c.form == Form::quaternions)
             zonal::rotate_each(c.order, zonal::RotationQuaternions<T>(given, rotation_stride), c.layout,
-                               source, to);
+                               source, to, executor);
         else
-            zonal::rotate_all(c.order, matrices.front(), c.layout, source, to);
+            zonal::rotate_all(c.order, matrices.front(), c.layout, source, to, executor);
     }
 
     /// One channel of one vector of `values`, all N^2 coefficients; band 0 is 1 where it is apart.
@@ -375,6 +376,27 @@ TYPED_TEST(runtime_batch, long_runs_at_any_address_match_single_rotations) {
             }
         }
     }
+}
+
+TYPED_TEST(runtime_batch, ranges_in_any_order_and_on_any_thread_give_the_same_bits) {
+    const zonal::Executor backwards = [](std::size_t count, const auto& body) {
+        for (std::size_t end = count; end > 0; end -= std::min<std::size_t>(end, 37))
+            body(end - std::min<std::size_t>(end, 37), end);
+    };
+    this->on_every_target_and_order([&](int order) {
+        for (const std::size_t streamed_bytes : {std::size_t{0}, zonal::batch::kStreamedBytes}) {
+            zonal::batch::set_streamed_bytes(streamed_bytes);
+            for (const Form form : kForms) {
+                Batch<TypeParam> whole({.order = order, .layout = {.count = 150}, .form = form, .offset = 1});
+                whole.rotate();
+                for (const zonal::Executor& executor : {backwards, zonal::on_all_cores(16)}) {
+                    Batch<TypeParam> parts(whole.c);
+                    parts.rotate(executor);
+                    EXPECT_EQ(parts.out, whole.out) << "order " << order;
+                }
+            }
+        }
+    });
 }
 
 TYPED_TEST(runtime_batch, vectors_and_rotations_may_be_members_of_one_struct) {

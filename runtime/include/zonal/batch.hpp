@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 
 #include "zonal/rotation.hpp"
@@ -53,6 +54,13 @@ struct RotationQuaternions {
         : values(four_values_each), stride(stride_in_values) {}
 };
 
+/// Where a batch runs when the caller wants more than the calling thread: calls body(begin, end) for ranges
+/// of vectors that together are 0 ... count, each once, in any order and on any threads, and returns when all
+/// are done. `zonal::on_all_cores` (zonal/parallel.hpp) does so by oneTBB. Ranges of some thousand values
+/// each pay.
+using Executor = std::function<void(std::size_t count,
+                                    const std::function<void(std::size_t begin, std::size_t end)>& body)>;
+
 /// Turns every vector of a batch by a rotation of its own, all channels of a vector alike.
 /// order     : number of bands N; N^2 coefficients, index l(l+1)+m, real orthonormal basis, no
 ///             Condon-Shortley sign, z polar.
@@ -66,22 +74,23 @@ struct RotationQuaternions {
 ///             then untouched.
 /// Accuracy  : as `rotate`, see zonal/orderNN.hpp; results may differ from it in the last bits, and from one
 ///             processor to another.
-/// Cost      : one thread, no allocation; SIMD packs of 4 to 16 vectors chosen for the processor at run time.
-///             Batches larger than the last-level cache without gaps are written past the caches.
+/// executor  : none: the calling thread does all.
+/// Cost      : no allocation; SIMD packs of 4 to 16 vectors chosen for the processor at run time.
+///             Batches of more than 32 MiB without gaps, not in place, are written past the caches.
 void rotate_each(int order, const RotationMatrices<float>& rotations, const BatchLayout& layout,
-                 std::span<const float> in, std::span<float> out);
+                 std::span<const float> in, std::span<float> out, const Executor& executor = {});
 void rotate_each(int order, const RotationMatrices<double>& rotations, const BatchLayout& layout,
-                 std::span<const double> in, std::span<double> out);
+                 std::span<const double> in, std::span<double> out, const Executor& executor = {});
 void rotate_each(int order, const RotationQuaternions<float>& rotations, const BatchLayout& layout,
-                 std::span<const float> in, std::span<float> out);
+                 std::span<const float> in, std::span<float> out, const Executor& executor = {});
 void rotate_each(int order, const RotationQuaternions<double>& rotations, const BatchLayout& layout,
-                 std::span<const double> in, std::span<double> out);
+                 std::span<const double> in, std::span<double> out, const Executor& executor = {});
 
 /// Turns every vector of a batch by one rotation; what depends on the rotation only is computed once.
 /// All else as in `rotate_each`; a NaN or infinity in the rotation spoils every vector.
 void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,
-                std::span<const float> in, std::span<float> out);
+                std::span<const float> in, std::span<float> out, const Executor& executor = {});
 void rotate_all(int order, const RotationMatrix<double>& rotation, const BatchLayout& layout,
-                std::span<const double> in, std::span<double> out);
+                std::span<const double> in, std::span<double> out, const Executor& executor = {});
 
 }  // namespace zonal

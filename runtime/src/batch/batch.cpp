@@ -108,59 +108,73 @@ batch::Job<T> checked_job(int order, const Runs<T>& rotations, batch::RotationFo
             .is_streamed = is_large && stride == length && from.data != to.data};
 }
 
+/// The whole job by the calling thread, or ranges of it by the executor.
+template <class T>
+void run(void (*kernel)(const batch::Job<T>&), const batch::Job<T>& job, const Executor& executor) {
+    if (!executor) return kernel(job);
+    executor(job.count, [&](std::size_t begin, std::size_t end) {
+        batch::Job<T> part = job;
+        part.rotations += begin * job.rotation_stride;
+        part.in += begin * job.stride;
+        part.out += begin * job.stride;
+        part.count = end - begin;
+        kernel(part);
+    });
+}
+
 template <class T>
 void checked_rotate_each(int order, std::span<const T> rotations, std::size_t rotation_stride,
                          batch::RotationForm form, const BatchLayout& layout, std::span<const T> in,
-                         std::span<T> out) {
+                         std::span<T> out, const Executor& executor) {
     const batch::Kernel<T>& kernel = kernel_of<T>(order);
     const std::size_t length = form == batch::RotationForm::matrix ? 9 : 4;
     const Runs<T> runs = checked_runs("rotations", rotations, layout.count, length, rotation_stride);
-    kernel.each(checked_job(order, runs, form, layout, in, out));
+    run(kernel.each, checked_job(order, runs, form, layout, in, out), executor);
 }
 
 template <class T>
 void checked_rotate_all(int order, const RotationMatrix<T>& rotation, const BatchLayout& layout,
-                        std::span<const T> in, std::span<T> out) {
+                        std::span<const T> in, std::span<T> out, const Executor& executor) {
     const batch::Kernel<T>& kernel = kernel_of<T>(order);
     const RotationMatrix<T> copy = rotation;  // it may lie in a gap of `out`
-    const Runs<T> runs{"rotation", copy.data(), 1, 9, 9};
-    kernel.all(checked_job(order, runs, batch::RotationForm::matrix, layout, in, out));
+    const Runs<T> runs{"rotation", copy.data(), 1, 9, 0};
+    run(kernel.all, checked_job(order, runs, batch::RotationForm::matrix, layout, in, out), executor);
 }
 
 }  // namespace
 
 void rotate_each(int order, const RotationMatrices<float>& rotations, const BatchLayout& layout,
-                 std::span<const float> in, std::span<float> out) {
+                 std::span<const float> in, std::span<float> out, const Executor& executor) {
     checked_rotate_each(order, rotations.values, rotations.stride, batch::RotationForm::matrix, layout, in,
-                        out);
+                        out, executor);
 }
 
 void rotate_each(int order, const RotationMatrices<double>& rotations, const BatchLayout& layout,
-                 std::span<const double> in, std::span<double> out) {
+                 std::span<const double> in, std::span<double> out, const Executor& executor) {
     checked_rotate_each(order, rotations.values, rotations.stride, batch::RotationForm::matrix, layout, in,
-                        out);
+                        out, executor);
 }
 
 void rotate_each(int order, const RotationQuaternions<float>& rotations, const BatchLayout& layout,
-                 std::span<const float> in, std::span<float> out) {
+                 std::span<const float> in, std::span<float> out, const Executor& executor) {
     checked_rotate_each(order, rotations.values, rotations.stride, batch::RotationForm::quaternion, layout,
-                        in, out);
+                        in, out, executor);
 }
 
 void rotate_each(int order, const RotationQuaternions<double>& rotations, const BatchLayout& layout,
-                 std::span<const double> in, std::span<double> out) {
+                 std::span<const double> in, std::span<double> out, const Executor& executor) {
     checked_rotate_each(order, rotations.values, rotations.stride, batch::RotationForm::quaternion, layout,
-                        in, out);
+                        in, out, executor);
 }
 
 void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,
-                std::span<const float> in, std::span<float> out) {
-    checked_rotate_all(order, rotation, layout, in, out);
+                std::span<const float> in, std::span<float> out, const Executor& executor) {
+    checked_rotate_all(order, rotation, layout, in, out, executor);
 }
 
 void rotate_all(int order, const RotationMatrix<double>& rotation, const BatchLayout& layout,
-                std::span<const double> in, std::span<double> out) {
-    checked_rotate_all(order, rotation, layout, in, out);
+                std::span<const double> in, std::span<double> out, const Executor& executor) {
+    checked_rotate_all(order, rotation, layout, in, out, executor);
 }
 
 }  // namespace zonal
