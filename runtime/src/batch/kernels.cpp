@@ -96,8 +96,8 @@ class Sign {
                 (R[1] * fma(R[5], R[6], -(R[3] * R[8])) + R[2] * fma(R[3], R[7], -(R[4] * R[6])));
             const auto is_mirror = hn::Lt(determinant.lanes, hn::Zero(Tag<T>()));
             has_mirror_ = !hn::AllFalse(Tag<T>(), is_mirror);
-            if (HWY_LIKELY(!has_mirror_)) return;
             sign_.lanes = hn::IfThenElse(is_mirror, P(-1).lanes, P(1).lanes);
+            if (HWY_LIKELY(!has_mirror_)) return;
             for (int i = 0; i < 9; ++i) R[i] = sign_ * R[i];
         }
     }
