@@ -56,6 +56,7 @@ struct Result {
     int order = 0;
     double nanoseconds = 0;    ///< a vector, all its channels
     double to_memcpy = 0;      ///< of (bytes read + bytes written) / 2
+    double to_zxzxz = 0;       ///< of single calls, else 0
     double peak_fraction = 0;  ///< 0 where it has no meaning
     double error = 0;          ///< largest, relative to the norm of the vector
 };
@@ -256,19 +257,19 @@ std::vector<Contestant> contestants_of(int order, const Workload& workload, cons
     std::vector<Contestant> contestants;
     const Peak peak = peak_of<T>(batch::chosen_target());
     const double vectors = static_cast<double>(data.count);
+    const auto add = [&](const SingleCall<T>& call) {
+        const Arrays<T> arrays{data.rotations.data(), data.in.data(), data.out.data(), data.count};
+        contestants.push_back(
+            {call.name, [=] { call.run(arrays); }, vectors, 0, largest_error<T>(order, call.rotate)});
+    };
     if (workload.is_single()) {
-        for (const SingleCall<T>& call : single_calls<T>(order))
-            contestants.push_back(
-                {call.name,
-                 [call, data] {
-                     call.run({data.rotations.data(), data.in.data(), data.out.data(), data.count});
-                 },
-                 vectors, 0, largest_error<T>(order, call.rotate)});
+        for (const SingleCall<T>& call : single_calls<T>(order)) add(call);
     } else {
         contestants.push_back({"zonal", [=] { rotate_batch(order, workload, data); }, vectors,
                                static_cast<double>(instructions_of(order, workload, peak.is_fused)) /
                                    static_cast<double>(peak.lanes),
                                batch_error<T>(order, workload)});
+        if (workload.name == "all") add(dense_product<T>(order));
     }
     // The copy goes from the first half of all bytes to the second.
     const std::size_t length = workload.channels * order * order;
@@ -293,10 +294,11 @@ void measure(int order, const Workload& workload, const std::string& place, cons
     for (const Contestant& contestant : contestants) {
         if (contestant.name == "memcpy" || contestant.name == "peak") continue;
         const std::vector<double>& seconds = times.at(contestant.name);
-        std::vector<double> nanoseconds, to_memcpy, fraction;
+        std::vector<double> nanoseconds, to_memcpy, to_zxzxz, fraction;
         for (std::size_t round = 0; round < seconds.size(); ++round) {
             nanoseconds.push_back(1e9 * seconds[round] / contestant.vectors);
             to_memcpy.push_back(seconds[round] / times.at("memcpy")[round]);
+            if (workload.is_single()) to_zxzxz.push_back(seconds[round] / times.at(kZxzxz)[round]);
             if (contestant.peak_instructions > 0)
                 fraction.push_back(contestant.peak_instructions * times.at("peak")[round] /
                                    static_cast<double>(kPeakRounds * kPeakChains) /
@@ -310,11 +312,13 @@ void measure(int order, const Workload& workload, const std::string& place, cons
                            .order = order,
                            .nanoseconds = median(nanoseconds),
                            .to_memcpy = median(to_memcpy),
+                           .to_zxzxz = to_zxzxz.empty() ? 0 : median(to_zxzxz),
                            .peak_fraction = fraction.empty() ? 0 : median(fraction),
                            .error = contestant.error});
         const Result& r = results.back();
-        fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {} | {:.1e} |\n", r.workload, r.place,
-                   r.order, r.contestant, r.type, r.target, r.nanoseconds, r.to_memcpy,
+        fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1e} |\n", r.workload,
+                   r.place, r.order, r.contestant, r.type, r.target, r.nanoseconds, r.to_memcpy,
+                   r.to_zxzxz > 0 ? fmt::format("{:.3f}", r.to_zxzxz) : "",
                    r.peak_fraction > 0 ? fmt::format("{:.0f} %", 100 * r.peak_fraction) : "", r.error);
         std::fflush(stdout);
     }
@@ -330,6 +334,7 @@ void write_json(const std::string& path, const std::vector<Result>& results, con
         nlohmann::json line{{"workload", r.workload},     {"place", r.place},         {"order", r.order},
                             {"contestant", r.contestant}, {"type", r.type},           {"target", r.target},
                             {"ns", r.nanoseconds},        {"to_memcpy", r.to_memcpy}, {"error", r.error}};
+        if (r.to_zxzxz > 0) line["to_zxzxz"] = r.to_zxzxz;
         if (r.peak_fraction > 0) line["peak_fraction"] = r.peak_fraction;
         json["results"].push_back(std::move(line));
     }
@@ -346,11 +351,12 @@ void run(const Options& options) {
     fmt::print(
         "Time of one vector (all channels) on one core; ratio to memcpy of (bytes read + written) / 2, "
         "rotations\n"
-        "included; share of the measured peak of multiply-adds on the same packs that the kernel's own\n"
+        "included; of single calls, ratio to the z-x-z-x-z product with angles (sine and cosine included); "
+        "share of the measured peak of multiply-adds on the same packs that the kernel's own\n"
         "instructions make; largest error over {} random rotations. Medians of {} interleaved rounds.\n"
         "L2: {} KiB in all; memory: {} MiB.\n\n"
-        "| workload | from | N | contestant | type | packs | ns | / memcpy | of peak | error |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n",
+        "| workload | from | N | contestant | type | packs | ns | / memcpy | / zxzxz | of peak | error |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n",
         kErrorRotations, options.rounds, options.l2_kib, options.memory_mib);
     std::vector<double> memory;
     std::vector<Result> results;

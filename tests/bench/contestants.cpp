@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "bench/baselines/dense_product.hpp"
 #include "bench/baselines/euler_zyz.hpp"
 #include "bench/baselines/ivanic_ruedenberg.hpp"
 #include "bench/baselines/zxzxz.hpp"
@@ -34,14 +35,19 @@ SingleCall<T> baseline(const char* name, int order) {
             [=](const T* R, const T* f, T* out) { kernel->rotate(R, f, out); }};
 }
 
-#define ZONAL_BENCH_KERNEL(N)                                \
-    struct Order##N {                                        \
+#define ZONAL_BENCH_KERNEL(N, kernel)                        \
+    struct kernel##_of_##N {                                 \
         template <class T>                                   \
         static void rotate(const T* R, const T* f, T* out) { \
-            order##N::rotate<T, T>(R, f, out);               \
+            order##N::kernel<T, T>(R, f, out);               \
         }                                                    \
     };
-ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_KERNEL)
+#define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
+#define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
+ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_EXACT)
+ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_BENCH_LOBES)
+#undef ZONAL_BENCH_LOBES
+#undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
 
 }  // namespace
@@ -49,16 +55,36 @@ ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_KERNEL)
 template <class T>
 std::vector<SingleCall<T>> single_calls(int order) {
     std::vector<SingleCall<T>> calls;
-#define ZONAL_BENCH_KERNEL(N) \
-    if (order == N) calls.push_back(single_call<Order##N, N, T>("rotate"));
-    ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_KERNEL)
+#define ZONAL_BENCH_KERNEL(N, kernel) \
+    if (order == N) calls.push_back(single_call<kernel##_of_##N, N, T>(#kernel));
+#define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
+#define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
+    ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_EXACT)
+    ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_BENCH_LOBES)
+#undef ZONAL_BENCH_LOBES
+#undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
-    calls.push_back(baseline<T, baselines::Zxzxz<T>>("zxzxz with angles", order));
+    calls.push_back(baseline<T, baselines::Zxzxz<T>>(kZxzxz, order));
     calls.push_back(baseline<T, baselines::EulerZyz<T>>("z-y-z with angles", order));
     calls.push_back(baseline<T, baselines::IvanicRuedenberg<T>>("Ivanic-Ruedenberg", order));
     return calls;
 }
 
+template <class T>
+SingleCall<T> dense_product(int order) {
+    const auto recursion = std::make_shared<baselines::IvanicRuedenberg<T>>(order);
+    const auto turn = [=](const Arrays<T>& a) {
+        const std::size_t size = static_cast<std::size_t>(order) * order;
+        std::vector<T> blocks(baselines::block_offset(order));
+        recursion->blocks(a.rotations, blocks.data());
+        for (std::size_t k = 0; k < a.count; ++k)
+            baselines::apply_blocks(order, blocks.data(), a.in + size * k, a.out + size * k);
+    };
+    return {"dense, Eigen", turn, [=](const T* R, const T* f, T* out) { turn({R, f, out, 1}); }};
+}
+
+template SingleCall<float> dense_product<float>(int);
+template SingleCall<double> dense_product<double>(int);
 template std::vector<SingleCall<float>> single_calls<float>(int);
 template std::vector<SingleCall<double>> single_calls<double>(int);
 

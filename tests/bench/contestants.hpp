@@ -24,8 +24,16 @@ struct SingleCall {
     std::function<void(const T* R, const T* f, T* out)> rotate;  ///< one of them, to measure its error
 };
 
+/// Name of the one that others are compared with, as the paper's Figure 5 does.
+inline constexpr const char* kZxzxz = "zxzxz with angles";
+
 /// Whoever takes part in the table of single calls for this order: add baselines here (contestants.cpp).
 template <class T>
 std::vector<SingleCall<T>> single_calls(int order);
+
+/// All vectors by the first rotation, as a user of a matrix library would: blocks once, then Eigen's
+/// products.
+template <class T>
+SingleCall<T> dense_product(int order);
 
 }  // namespace zonal::bench
