@@ -24,13 +24,15 @@ using graph::Kind;
 using graph::Node;
 using graph::Op;
 
-/// Kernels of more operations are loops over tables. Measured by `rotate_accurate` and `blocks` of orders 6
-/// to 20 (scalar float, g++ 12 and clang++ 14, -O2 -mfma): unrolled, they are faster up to order 12, 1.1
-/// to 1.6 times at order 10 by g++, and as fast as tables at order 16; but compile time grows faster than
-/// they do: 2 s a kernel at 4000 operations, 5 s at 8000, 48 s at 35000, where tables take 1 to 2 s at any
-/// size. 7000 keeps orders up to 9 and `rotate` of every order as they are fastest, and order 10 below 5 s in
-/// all.
-constexpr int kLargestUnrolled = 7000;
+/// Kernels of more operations are loops over tables. `blocks` of orders 8, 10, 12, 16 and 20 by g++ 12, -O2
+/// -mfma, scalar float, 256 rotations in turn:
+///     operations                              3916  8004  14280  35030  69728
+///     seconds to compile, unrolled, tables     3 1   6 1   14 1   49 1  140 1
+///     microseconds a call, unrolled, tables  1.6 2.2  3.3 4.5  6.5 7.1  17 16  36 31
+/// Below 30000 operations only the time to compile speaks for tables, so the limit lies as high as it may for
+/// the kernels of order 10 to take well under 10 s together: between its `blocks` and its `rotate_accurate`.
+/// Kernels without dense blocks stay below it at every order (order 20: 4 s, and 2.1 us instead of 5.1).
+constexpr int kLargestUnrolled = 8500;
 
 const char* const kPrelude = R"(
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
