@@ -2,15 +2,16 @@
 //
 // Method: values of one group are sorted by depth and operation; equal ones form a batch that needs no order
 // within. A batch is sorted by where its operands lie, so that neighbours often have neighbouring operands,
-// and its results take neighbouring slots; values that outlive their group lie in the order they were built
-// in, whatever batch makes them. Each batch is then cut into evenly spaced runs.
-// Known limit: kernels without regular structure give short runs.
+// and its results take neighbouring slots; entries of a matrix that is stored or multiplied by lie row by
+// row, whatever batch makes them. Each batch is then cut into evenly spaced runs. Known limit: kernels
+// without regular structure give short runs.
 #include "graph/program.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "graph/schedule.hpp"
 
@@ -195,9 +196,9 @@ class Builder {
     /// Elements of the signal are copied into slots by the first stage that needs them.
     void add_signal_inputs(std::vector<Statement>& computed, const std::vector<Statement>& stores) {
         std::vector<Id> needed;
-        for (const Statement& statement : computed)
-            for (const Id operand : node(statement.node).operands) needed.push_back(operand);
-        for (const Statement& store : stores) needed.push_back(store.node);
+        for (const std::vector<Statement>* statements : {&std::as_const(computed), &stores})
+            for (const Statement& statement : *statements)
+                for (const Id id : operands_of(statement)) needed.push_back(id);
         std::sort(needed.begin(), needed.end());
         needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
         std::vector<Statement> inputs;
@@ -207,6 +208,7 @@ class Builder {
         computed.insert(computed.begin(), inputs.begin(), inputs.end());
     }
 
+    /// Backwards for ranks: a minus sign has its own before it hands it on.
     void note_readers() {
         int at = 0;
         for (const Stage& stage : stages_)
@@ -225,7 +227,8 @@ class Builder {
         return statement.is_store ? std::vector<Id>{statement.node} : node(statement.node).operands;
     }
 
-    /// A value with such a reader is kept in the order of outputs, or of the signal values it meets.
+    /// What a store, a signal value or a later stage reads is kept: in the order of those outputs or signal
+    /// values, so that rows of a matrix stay rows whichever batches make their elements.
     void note_reader(const Statement& reader, Id id, int stage) {
         if (reader.is_store) {
             rank_[id] = std::min(rank_[id], reader.index);
@@ -240,7 +243,7 @@ class Builder {
 
     Slots& slots_of(Id id) { return node(id).kind == Kind::signal ? signal_slots_ : rotation_slots_; }
 
-    /// Values that others than the next few batches read lie in the order they were built in.
+    /// Kept values are neighbours in their order; all others in the order they are computed in.
     void take_kept(const Stage& stage) {
         std::map<Kind, std::vector<Id>> kept;
         for (const Batch& batch : stage)
@@ -348,12 +351,8 @@ class Builder {
             slots_of(id).release(place_[id]);
             last_reader_[id] = -1;
         };
-        for (const Statement& statement : batch.statements) {
-            if (statement.is_store)
-                release(statement.node);
-            else
-                for (const Id operand : node(statement.node).operands) release(operand);
-        }
+        for (const Statement& statement : batch.statements)
+            for (const Id id : operands_of(statement)) release(id);
     }
 
     const Kernel& kernel_;
@@ -364,8 +363,7 @@ class Builder {
     std::vector<int> depth_;
     std::vector<int> last_reader_;  ///< the batch that reads a value last
     std::vector<bool> is_kept_;
-    std::vector<int>
-        rank_;  ///< order of kept values: that of their outputs, or of the signal values they meet
+    std::vector<int> rank_;  ///< the order of kept values: see note_reader
     Slots rotation_slots_, signal_slots_;
     std::vector<Id> constants_;
     int batches_done_ = 0;
