@@ -96,56 +96,65 @@ using Steps = std::integer_sequence<int, steps...>;
 template <std::size_t operands>
 using Columns = std::make_index_sequence<operands>;
 
-// Blocks of a fixed size, read before written, become vector instructions at -O2.
+// One copy that stays in the instruction cache, not one for each call.
+#if defined(__clang__)
+#define ZONAL_SHARED_LOOP [[gnu::noinline]]
+#else
+#define ZONAL_SHARED_LOOP [[gnu::noinline, gnu::noclone]]
+#endif
+
+// Runs are too short for what compilers do to loops at -O3.
+[[gnu::always_inline]] inline void keep_loop_short() { __asm__ volatile(""); }
+
+// Blocks of a fixed size, read before written, become vector instructions.
 template <int... steps, class Result, class Operation, class... Operand>
-inline void even_run(int count, Result* result, Operation operation,
-                     const Operand*... operands) {
+inline void even_run(int count, Result* result, Operation operation, const Operand*... operands) {
     constexpr int kBlock = 4;
     int i = 0;
     for (; i + kBlock <= count; i += kBlock) {
+        keep_loop_short();
         Result block[kBlock];
         for (int k = 0; k < kBlock; ++k) block[k] = operation(operands[steps * (i + k)]...);
         for (int k = 0; k < kBlock; ++k) result[i + k] = block[k];
     }
-#if defined(__clang__)
-#pragma clang loop vectorize(disable) interleave(disable) unroll(disable)
-#endif
-    for (; i < count; ++i) result[i] = operation(operands[steps * i]...);
+    for (; i < count; ++i) {
+        keep_loop_short();
+        result[i] = operation(operands[steps * i]...);
+    }
 }
 
-// Not inlined: all loops over one operation share a function that stays in the instruction cache.
 template <class Row, int... steps, std::size_t... k, class Result, class Operation,
           class... Operand>
-[[gnu::noinline]] void even_runs(const Row* row, int runs, Steps<steps...>,
-                                 std::index_sequence<k...>, Result* result,
-                                 Operation operation, const Operand*... operands) {
+ZONAL_SHARED_LOOP void even_runs(const Row* row, int runs, Steps<steps...>,
+                                 std::index_sequence<k...>, Result* result, Operation operation,
+                                 const Operand*... operands) {
     for (; runs > 0; --runs, row += 2 + sizeof...(k))
         even_run<steps...>(row[0], result + row[1], operation, (operands + row[2 + k])...);
 }
 
 template <class Row, std::size_t... k, class Result, class Operation, class... Operand>
-[[gnu::noinline]] void spaced_runs(const Row* row, int runs, std::index_sequence<k...>,
+ZONAL_SHARED_LOOP void spaced_runs(const Row* row, int runs, std::index_sequence<k...>,
                                    Result* result, Operation operation,
                                    const Operand*... operands) {
-    for (; runs > 0; --runs, row += 3 + 2 * sizeof...(k))
-#if defined(__clang__)
-#pragma clang loop vectorize(disable) interleave(disable) unroll(disable)
-#endif
-        for (int i = 0; i < row[0]; ++i)
+    for (; runs > 0; --runs, row += 3 + 2 * sizeof...(k)) {
+        for (int i = 0; i < row[0]; ++i) {
+            keep_loop_short();
             result[row[1] + i * row[2]] =
                 operation(operands[row[3 + 2 * k] + i * row[4 + 2 * k]]...);
+        }
+    }
 }
 
 template <class Row, std::size_t... k, class Result, class Operation, class... Operand>
-[[gnu::noinline]] void scattered(const Row* row, int elements, std::index_sequence<k...>,
+ZONAL_SHARED_LOOP void scattered(const Row* row, int elements, std::index_sequence<k...>,
                                  Result* result, Operation operation,
                                  const Operand*... operands) {
-#if defined(__clang__)
-#pragma clang loop vectorize(disable) interleave(disable) unroll(disable)
-#endif
-    for (; elements > 0; --elements, row += 1 + sizeof...(k))
+    for (; elements > 0; --elements, row += 1 + sizeof...(k)) {
+        keep_loop_short();
         result[row[0]] = operation(operands[row[1 + k]]...);
+    }
 }
+#undef ZONAL_SHARED_LOOP
 
 /// 1 where the lobe kernels are here, else 0.
 inline constexpr int kHasLobes = 0;
