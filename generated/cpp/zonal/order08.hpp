@@ -14,16 +14,16 @@
 //             per extra vector 63 mul 0 add 616 fma 0 other
 //           blocks 1794 mul 170 add 1952 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 1.3e-06 (float), 3.0e-15 (double), for det R = +1;
-//             excess 5.80
-//           rotate relative error 1.3e-06 (float), 3.0e-15 (double), for det R = +1;
-//             excess 5.80
-//           apply relative error 1.3e-06 (float), 3.0e-15 (double), for det R = +1;
-//             excess 5.80
-//           rotate_accurate relative error 4.1e-07 (float), 8.5e-16 (double), for det R = +1 or -1;
-//             excess 3.50
-//           blocks relative error 4.1e-07 (float), 8.4e-16 (double), for det R = +1 or -1;
-//             excess 3.50
+// bound   : rotate_channels relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1;
+//             excess 6.29
+//           rotate relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1;
+//             excess 6.29
+//           apply relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1;
+//             excess 6.29
+//           rotate_accurate relative error 4.0e-07 (float), 8.2e-16 (double), for det R = +1 or -1;
+//             excess 3.72
+//           blocks relative error 4.0e-07 (float), 8.2e-16 (double), for det R = +1 or -1;
+//             excess 3.72
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
@@ -78,33 +78,33 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 1.3e-06;
+inline constexpr double kRotateChannelsBoundFloat = 1.2e-06;
 inline constexpr double kRotateChannelsBoundDouble = 3.0e-15;
-inline constexpr double kRotateChannelsExcess = 5.80;
+inline constexpr double kRotateChannelsExcess = 6.29;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.3e-06;
+inline constexpr double kRotateBoundFloat = 1.2e-06;
 inline constexpr double kRotateBoundDouble = 3.0e-15;
-inline constexpr double kRotateExcess = 5.80;
+inline constexpr double kRotateExcess = 6.29;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.3e-06;
+inline constexpr double kApplyBoundFloat = 1.2e-06;
 inline constexpr double kApplyBoundDouble = 3.0e-15;
-inline constexpr double kApplyExcess = 5.80;
+inline constexpr double kApplyExcess = 6.29;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateAccurateBoundFloat = 4.1e-07;
-inline constexpr double kRotateAccurateBoundDouble = 8.5e-16;
-inline constexpr double kRotateAccurateExcess = 3.50;
+inline constexpr double kRotateAccurateBoundFloat = 4.0e-07;
+inline constexpr double kRotateAccurateBoundDouble = 8.2e-16;
+inline constexpr double kRotateAccurateExcess = 3.72;
 
 /// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kBlocksBoundFloat = 4.1e-07;
-inline constexpr double kBlocksBoundDouble = 8.4e-16;
-inline constexpr double kBlocksExcess = 3.50;
+inline constexpr double kBlocksBoundFloat = 4.0e-07;
+inline constexpr double kBlocksBoundDouble = 8.2e-16;
+inline constexpr double kBlocksExcess = 3.72;
 
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).

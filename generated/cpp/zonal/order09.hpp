@@ -15,15 +15,15 @@
 //           blocks 2573 mul 228 add 2902 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 // bound   : rotate_channels relative error 2.0e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 5.80
-//           rotate relative error 1.9e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 7.73
-//           apply relative error 1.9e-06 (float), 3.9e-15 (double), for det R = +1;
-//             excess 7.73
-//           rotate_accurate relative error 5.6e-07 (float), 9.9e-16 (double), for det R = +1 or -1;
-//             excess 4.00
-//           blocks relative error 5.6e-07 (float), 9.9e-16 (double), for det R = +1 or -1;
-//             excess 4.00
+//             excess 6.29
+//           rotate relative error 1.8e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 8.38
+//           apply relative error 1.8e-06 (float), 3.9e-15 (double), for det R = +1;
+//             excess 8.38
+//           rotate_accurate relative error 5.6e-07 (float), 9.6e-16 (double), for det R = +1 or -1;
+//             excess 4.24
+//           blocks relative error 5.5e-07 (float), 9.6e-16 (double), for det R = +1 or -1;
+//             excess 4.24
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
@@ -80,31 +80,31 @@ inline constexpr int kTakesMirrors = 0;
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 2.0e-06;
 inline constexpr double kRotateChannelsBoundDouble = 4.1e-15;
-inline constexpr double kRotateChannelsExcess = 5.80;
+inline constexpr double kRotateChannelsExcess = 6.29;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.9e-06;
+inline constexpr double kRotateBoundFloat = 1.8e-06;
 inline constexpr double kRotateBoundDouble = 4.1e-15;
-inline constexpr double kRotateExcess = 7.73;
+inline constexpr double kRotateExcess = 8.38;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.9e-06;
+inline constexpr double kApplyBoundFloat = 1.8e-06;
 inline constexpr double kApplyBoundDouble = 3.9e-15;
-inline constexpr double kApplyExcess = 7.73;
+inline constexpr double kApplyExcess = 8.38;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateAccurateBoundFloat = 5.6e-07;
-inline constexpr double kRotateAccurateBoundDouble = 9.9e-16;
-inline constexpr double kRotateAccurateExcess = 4.00;
+inline constexpr double kRotateAccurateBoundDouble = 9.6e-16;
+inline constexpr double kRotateAccurateExcess = 4.24;
 
 /// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kBlocksBoundFloat = 5.6e-07;
-inline constexpr double kBlocksBoundDouble = 9.9e-16;
-inline constexpr double kBlocksExcess = 4.00;
+inline constexpr double kBlocksBoundFloat = 5.5e-07;
+inline constexpr double kBlocksBoundDouble = 9.6e-16;
+inline constexpr double kBlocksExcess = 4.24;
 
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).

@@ -14,16 +14,16 @@
 //             per extra vector 99 mul 0 add 1230 fma 0 other
 //           blocks 3594 mul 290 add 4120 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate_channels relative error 1.6e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 7.73
-//           rotate relative error 1.7e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 7.73
-//           apply relative error 1.6e-06 (float), 4.0e-15 (double), for det R = +1;
-//             excess 7.73
-//           rotate_accurate relative error 5.6e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
-//             excess 4.50
-//           blocks relative error 5.6e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
-//             excess 4.50
+// bound   : rotate_channels relative error 1.5e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 8.38
+//           rotate relative error 1.6e-06 (float), 4.1e-15 (double), for det R = +1;
+//             excess 8.38
+//           apply relative error 1.5e-06 (float), 4.0e-15 (double), for det R = +1;
+//             excess 8.38
+//           rotate_accurate relative error 5.5e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
+//             excess 4.77
+//           blocks relative error 5.5e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
+//             excess 4.77
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
@@ -167,33 +167,33 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 1.6e-06;
+inline constexpr double kRotateChannelsBoundFloat = 1.5e-06;
 inline constexpr double kRotateChannelsBoundDouble = 4.1e-15;
-inline constexpr double kRotateChannelsExcess = 7.73;
+inline constexpr double kRotateChannelsExcess = 8.38;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.7e-06;
+inline constexpr double kRotateBoundFloat = 1.6e-06;
 inline constexpr double kRotateBoundDouble = 4.1e-15;
-inline constexpr double kRotateExcess = 7.73;
+inline constexpr double kRotateExcess = 8.38;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.6e-06;
+inline constexpr double kApplyBoundFloat = 1.5e-06;
 inline constexpr double kApplyBoundDouble = 4.0e-15;
-inline constexpr double kApplyExcess = 7.73;
+inline constexpr double kApplyExcess = 8.38;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateAccurateBoundFloat = 5.6e-07;
+inline constexpr double kRotateAccurateBoundFloat = 5.5e-07;
 inline constexpr double kRotateAccurateBoundDouble = 1.2e-15;
-inline constexpr double kRotateAccurateExcess = 4.50;
+inline constexpr double kRotateAccurateExcess = 4.77;
 
 /// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kBlocksBoundFloat = 5.6e-07;
+inline constexpr double kBlocksBoundFloat = 5.5e-07;
 inline constexpr double kBlocksBoundDouble = 1.2e-15;
-inline constexpr double kBlocksExcess = 4.50;
+inline constexpr double kBlocksExcess = 4.77;
 
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
