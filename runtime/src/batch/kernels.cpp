@@ -125,13 +125,15 @@ HWY_NOINLINE ZONAL_FLATTEN void apply_called(const P* scalars, P* f) {
     PackKernels<N>::apply(scalars, f);
 }
 
+/// What a rotation turns.
+enum class Use { one_channel, channels, all_vectors };
+
 /// Turns one channel of kWidth vectors, each by a rotation of its own: everything at once.
 template <int N, RotationForm kForm>
 class Once {
   public:
-    static constexpr bool kHasOwn = true;
-    /// A copy of its own in every round of a loop stays in registers.
-    static constexpr bool kIsLocal = true;
+    static constexpr Use kUse = Use::one_channel;
+    static constexpr std::size_t kRotationLength = kForm == RotationForm::matrix ? 9 : 4;
 
     HWY_INLINE void load(const T* rows, std::size_t stride) {
         load_rotations<kForm>(rows, stride, R_);
@@ -147,21 +149,19 @@ class Once {
     Sign<N, kForm> sign_;
 };
 
-enum class Use { one_channel, channels, all_vectors };
-
 /// The same in two steps: what depends on the rotations only is kept. For one channel that is faster than at
 /// once where there are divisions: fewer values wait for them in registers.
-template <int N, RotationForm kForm, Use kUse>
+template <int N, RotationForm kForm, Use kWhat>
 class Prepared {
   public:
-    static constexpr bool kHasOwn = kUse != Use::all_vectors;
-    static constexpr bool kIsLocal = kUse == Use::one_channel;
+    static constexpr Use kUse = kWhat;
+    static constexpr std::size_t kRotationLength = kForm == RotationForm::matrix ? 9 : 4;
 
     HWY_INLINE void load(const T* rows, std::size_t stride) {
         P R[9];
         load_rotations<kForm>(rows, stride, R);
         sign_.take_from(R);
-        if constexpr (N <= kLargestInlined && kHasOwn)
+        if constexpr (N <= kLargestInlined && kUse != Use::all_vectors)
             PackKernels<N>::prepare(R, scalars_);
         else
             prepare_called<N>(R, scalars_);
@@ -190,23 +190,13 @@ class Batch {
                                                          column / job.channels);
     }
 
-    void run(RotationForm form, Turn& turn) {
-        std::size_t done = 0;
-        if (needs_copies()) {
-        } else if (job_.is_streamed && job_.channels <= kMostStreamed) {
-            Writer writer(job_.out);
-            done = turn_rows<Large>(turn, &writer);
-            writer.finish();
-        } else {
-            using Usual = std::conditional_t<(kFirst == 0 && N <= kLargestInlined), Small, Large>;
-            done = job_.is_large ? turn_rows<Large>(turn, nullptr) : turn_rows<Usual>(turn, nullptr);
-        }
-        turn_rest(form, turn, done);
-    }
+    void run(RotationForm form, Turn& turn) { turn_rest(form, turn, needs_copies() ? 0 : turn_packs(turn)); }
 
   private:
     static constexpr std::size_t kCoefficients = static_cast<std::size_t>(N) * N;
     static constexpr std::size_t kColumns = kCoefficients - kFirst;  ///< of one channel in memory
+
+    static constexpr bool kHasOwn = Turn::kUse != Use::all_vectors;  ///< rotations, for each vector one
 
     using Writer = Stream<T, kWidth * kColumns * kMostStreamed>;
 
@@ -247,31 +237,53 @@ class Batch {
     };
 
     /// All whole packs; returns the number of vectors turned.
-    template <class Flow>
+    std::size_t turn_packs(Turn& turn) const {
+        if (job_.is_streamed && job_.channels <= kMostStreamed) {
+            Writer writer(job_.out);
+            const std::size_t done = turn_rows(turn, &writer);
+            writer.finish();
+            return done;
+        }
+        return turn_rows(turn, nullptr);
+    }
+
+    /// Copies of the loop pay only where the kernel is part of it.
+    std::size_t turn_rows(Turn& turn, Writer* writer) const {
+        if constexpr (kFirst == 0 && N <= kLargestInlined && Turn::kUse != Use::channels) {
+            const bool is_touching =
+                job_.stride == kColumns && (!kHasOwn || job_.rotation_stride == Turn::kRotationLength);
+            if (is_touching && job_.is_large) return turn_rows<Large, true>(turn, writer);
+            if (is_touching) return turn_rows<Small, true>(turn, writer);
+        }
+        return turn_rows<Large, false>(turn, writer);
+    }
+
+    /// kIsTouching: vectors of one channel and rotations lie without gaps, so that addresses are constants.
+    template <class Flow, bool kIsTouching>
     HWY_NOINLINE ZONAL_FLATTEN std::size_t turn_rows(Turn& turn, Writer* writer) const {
-        const std::size_t stride = job_.stride;
+        const std::size_t stride = kIsTouching ? kColumns : job_.stride;
+        const std::size_t rotation_stride = kIsTouching ? Turn::kRotationLength : job_.rotation_stride;
         const T* in = job_.in;
         const T* rotations = job_.rotations;
         T* out = job_.out;
         std::size_t k = 0;
         for (; k + kWidth <= job_.count; k += kWidth) {
             T* const to = writer != nullptr ? writer->room() : out;
-            if constexpr (Turn::kIsLocal) {
-                Turn local;
-                local.load(rotations, job_.rotation_stride);
+            if constexpr (Turn::kUse == Use::one_channel) {
+                Turn local;  // one of its own in every round stays in registers
+                local.load(rotations, rotation_stride);
                 turn_row(local, in, to, stride, Flow(job_, in, writer));
-            } else if constexpr (Turn::kHasOwn) {
-                turn.load(rotations, job_.rotation_stride);
+            } else if constexpr (Turn::kUse == Use::channels) {
+                turn.load(rotations, rotation_stride);
                 turn_channels(turn, in, to, Flow(job_, in, writer));
+            } else if (kIsTouching || HWY_LIKELY(job_.channels == 1)) {
+                turn_row(turn, in, to, stride, Flow(job_, in, writer));
             } else {
-                if (HWY_LIKELY(job_.channels == 1))
-                    turn_row(turn, in, to, stride, Flow(job_, in, writer));
-                else
-                    turn_channels(turn, in, to, Flow(job_, in, writer));
+                turn_channels(turn, in, to, Flow(job_, in, writer));
             }
-            if constexpr (Turn::kHasOwn) {
-                if (job_.is_large) fetch_ahead(rotations, kWidth * job_.rotation_stride);
-                rotations += kWidth * job_.rotation_stride;
+            if constexpr (kHasOwn) {
+                if (job_.is_large) fetch_ahead(rotations, kWidth * rotation_stride);
+                rotations += kWidth * rotation_stride;
             }
             if (writer != nullptr) writer->advance(kWidth * stride);
             in += kWidth * stride;
@@ -292,8 +304,10 @@ class Batch {
     template <class Flow>
     HWY_NOINLINE void turn_channels(const Turn& turn, const T* in, T* out, Flow flow) const {
         if (job_.is_interleaved) return turn_interleaved(turn, in, out, flow);
-        for (std::size_t channel = 0; channel < job_.channels; ++channel)
+        for (std::size_t channel = 0; channel < job_.channels; ++channel) {
+            for (std::size_t column = 0; column < kColumns; column += kBlock<T>) flow.read();
             turn_channel(turn, in + channel * kColumns, out + channel * kColumns, job_.stride);
+        }
     }
 
     HWY_NOINLINE void turn_channel(const Turn& turn, const T* in, T* out, std::size_t stride) const {
@@ -317,7 +331,7 @@ class Batch {
         const std::size_t step = job_.is_interleaved ? job_.channels : 1;
         for (; k < job_.count; k += kWidth) {
             const std::size_t live = job_.count - k < kWidth ? job_.count - k : kWidth;
-            if constexpr (Turn::kHasOwn) load_some(form, turn, k, live);
+            if constexpr (kHasOwn) load_some(form, turn, k, live);
             for (std::size_t channel = 0; channel < job_.channels; ++channel) {
                 const std::size_t offset = k * job_.stride + channel * (job_.is_interleaved ? 1 : kColumns);
                 turn_copies(turn, job_.in + offset, job_.out + offset, step, live);
