@@ -117,6 +117,10 @@ class Sign {
 };
 
 template <int N>
+HWY_NOINLINE ZONAL_FLATTEN void rotate_called(const P* R, P* f) {
+    PackKernels<N>::rotate(R, f);
+}
+template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void prepare_called(const P* R, P* scalars) {
     PackKernels<N>::prepare(R, scalars);
 }
@@ -141,7 +145,10 @@ class Once {
     }
     HWY_INLINE void operator()(P* f) const {
         sign_.negate_odd_bands(f);
-        PackKernels<N>::rotate(R_, f);
+        if constexpr (N <= kLargestInlined)
+            PackKernels<N>::rotate(R_, f);
+        else
+            rotate_called<N>(R_, f);
     }
 
   private:
@@ -247,13 +254,18 @@ class Batch {
         return turn_rows(turn, nullptr);
     }
 
-    /// Copies of the loop pay only where the kernel is part of it.
+    /// Copies of the loop for what is most common; constant addresses pay where the kernel is part of the
+    /// loop.
     std::size_t turn_rows(Turn& turn, Writer* writer) const {
-        if constexpr (kFirst == 0 && N <= kLargestInlined && Turn::kUse != Use::channels) {
+        if constexpr (kFirst == 0 && Turn::kUse != Use::channels) {
             const bool is_touching =
                 job_.stride == kColumns && (!kHasOwn || job_.rotation_stride == Turn::kRotationLength);
-            if (is_touching && job_.is_large) return turn_rows<Large, true>(turn, writer);
-            if (is_touching) return turn_rows<Small, true>(turn, writer);
+            if constexpr (N <= kLargestInlined) {
+                if (is_touching && job_.is_large) return turn_rows<Large, true>(turn, writer);
+                if (is_touching) return turn_rows<Small, true>(turn, writer);
+            } else {
+                if (is_touching && !job_.is_large) return turn_rows<Small, false>(turn, writer);
+            }
         }
         return turn_rows<Large, false>(turn, writer);
     }
@@ -379,7 +391,8 @@ void run_each(const Job<T>& job) {
 
 template <int N, int kFirst, RotationForm kForm>
 void each(const Job<T>& job) {
-    constexpr bool kIsOnce = PackKernels<N>::kTakesMirrors;  // products only: nothing that is worth keeping
+    // Products only: nothing that is worth keeping. Called: one call is better than two.
+    constexpr bool kIsOnce = PackKernels<N>::kTakesMirrors || N > kLargestInlined;
     using One = std::conditional_t<kIsOnce, Once<N, kForm>, Prepared<N, kForm, Use::one_channel>>;
     job.channels == 1 ? run_each<N, kFirst, One>(job)
                       : run_each<N, kFirst, Prepared<N, kForm, Use::channels>>(job);
