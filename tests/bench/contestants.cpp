@@ -35,6 +35,10 @@ SingleCall<T> baseline(const char* name, int order) {
             [=](const T* R, const T* f, T* out) { kernel->rotate(R, f, out); }};
 }
 
+// Kernels of an order that take part, for whatever ZONAL_BENCH_KERNEL is at the time.
+#define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
+#define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
+
 #define ZONAL_BENCH_KERNEL(N, kernel)                        \
     struct kernel##_of_##N {                                 \
         template <class T>                                   \
@@ -42,12 +46,8 @@ SingleCall<T> baseline(const char* name, int order) {
             order##N::kernel<T, T>(R, f, out);               \
         }                                                    \
     };
-#define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
-#define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
 ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_EXACT)
 ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_BENCH_LOBES)
-#undef ZONAL_BENCH_LOBES
-#undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
 
 }  // namespace
@@ -57,8 +57,6 @@ std::vector<SingleCall<T>> single_calls(int order) {
     std::vector<SingleCall<T>> calls;
 #define ZONAL_BENCH_KERNEL(N, kernel) \
     if (order == N) calls.push_back(single_call<kernel##_of_##N, N, T>(#kernel));
-#define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
-#define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
     ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_EXACT)
     ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_BENCH_LOBES)
 #undef ZONAL_BENCH_LOBES
