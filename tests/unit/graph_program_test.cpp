@@ -14,6 +14,7 @@
 #include "graph/passes.hpp"
 #include "graph/program.hpp"
 #include "kernels/registry.hpp"
+#include "support/empty_kernel.hpp"
 
 namespace zonal::graph {
 namespace {
@@ -241,14 +242,6 @@ TEST(Program, rows_of_a_loop_are_independent_and_spaced_as_it_says) {
             expect_what_the_spacing_says(loop);
         }
     });
-}
-
-Kernel empty_kernel() {
-    Kernel kernel;
-    kernel.name = "test";
-    kernel.inputs = {{"R", Kind::rotation, 9, ""}, {"f", Kind::signal, 9, ""}};
-    kernel.output = {"out", Kind::signal, 9, ""};
-    return kernel;
 }
 
 TEST(Program, slots_are_used_again_when_their_value_is_done) {

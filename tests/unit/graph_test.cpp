@@ -6,17 +6,10 @@
 #include "graph/passes.hpp"
 #include "graph/schedule.hpp"
 #include "graph/sum.hpp"
+#include "support/empty_kernel.hpp"
 
 namespace zonal::graph {
 namespace {
-
-Kernel empty_kernel() {
-    Kernel kernel;
-    kernel.name = "test";
-    kernel.inputs = {{"R", Kind::rotation, 9, ""}, {"f", Kind::signal, 9, ""}};
-    kernel.output = {"out", Kind::signal, 9, ""};
-    return kernel;
-}
 
 TEST(Graph, constants_fold) {
     Graph graph;
