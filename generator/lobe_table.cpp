@@ -30,16 +30,15 @@ const Real kUnitTolerance{"1e-38"};
 /// Conditions are written with 6 digits.
 constexpr double kConditionTolerance = 1e-4;
 
-std::string next_step(const std::filesystem::path& path, int order) {
-    return fmt::format("run: zonal-gen search --order {} --out {}", order, path.string());
+std::string next_step(const std::filesystem::path& path, const LobeUse& use) {
+    return fmt::format("run: zonal-gen search --{} {} --out {}", use.field, use.value, path.string());
 }
 
-std::string read_bytes(const std::filesystem::path& path, int order) {
+std::string read_bytes(const std::filesystem::path& path, const LobeUse& use) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw UserError(
-            fmt::format("{}: no such table, or it cannot be read; wanted the lobes of order {}; {}",
-                        path.string(), order, next_step(path, order)));
+        throw UserError(fmt::format("{}: no such table, or it cannot be read; wanted the lobes of {} {}; {}",
+                                    path.string(), use.field, use.value, next_step(path, use)));
     }
     std::ostringstream bytes;
     bytes << file.rdbuf();
@@ -60,13 +59,13 @@ std::string sha256_hex(const std::string& bytes) {
 /// One table on its way from bytes to a verified `LobeTable`; every complaint names file and field.
 class Verifier {
   public:
-    Verifier(const std::filesystem::path& path, int order) : path_(path), order_(order) {}
+    Verifier(const std::filesystem::path& path, const LobeUse& use) : path_(path) { table_.use = use; }
 
     LobeTable read(double condition_cap) {
-        const std::string bytes = read_bytes(path_, order_);
+        const std::string bytes = read_bytes(path_, table_.use);
         parse(bytes);
         table_.sha256 = sha256_hex(bytes);
-        check_order();
+        check_use();
         check_directions_are_unit();
         check_no_lobe_twice();
         check_angles();
@@ -78,7 +77,7 @@ class Verifier {
     [[noreturn]] void complain(const std::string& field, const std::string& found,
                                const std::string& wanted) const {
         throw UserError(fmt::format("{}: {}: found {}, wanted {}; {}", path_.string(), field, found, wanted,
-                                    next_step(path_, order_)));
+                                    next_step(path_, table_.use)));
     }
 
     void parse(const std::string& bytes) {
@@ -88,7 +87,6 @@ class Verifier {
             complain("JSON text", fmt::format("a break at byte {} of {}", error.byte, bytes.size()),
                      "a whole table (this one may be truncated)");
         }
-        table_.order = field<int>("order", "an integer");
         table_.seed = field<std::uint64_t>("seed", "a non-negative integer");
         table_.command = field<std::string>("command", "a text");
         table_.zeros = field<std::vector<int>>("zeros", "one integer a band");
@@ -122,16 +120,18 @@ class Verifier {
         }
     }
 
-    void check_order() const {
-        if (table_.order != order_) complain("order", std::to_string(table_.order), std::to_string(order_));
-        const std::size_t lobes = 2 * order_ - 1;
+    void check_use() const {
+        const LobeUse& use = table_.use;
+        const int value = field<int>(use.field.c_str(), "an integer");
+        if (value != use.value) complain(use.field, std::to_string(value), std::to_string(use.value));
+        const std::size_t lobes = use.lobe_count();
         const auto check_count = [&](const char* name, std::size_t found, std::size_t wanted) {
             if (found != wanted) complain(name, fmt::format("{} entries", found), std::to_string(wanted));
         };
         check_count("directions", table_.directions.size(), lobes);
         check_count("angles", table_.angles.size(), lobes);
-        check_count("zeros", table_.zeros.size(), order_);
-        check_count("cond", table_.condition.size(), order_);
+        check_count("zeros", table_.zeros.size(), use.bands.size());
+        check_count("cond", table_.condition.size(), use.bands.size());
     }
 
     void check_directions_are_unit() const {
@@ -179,9 +179,10 @@ class Verifier {
     void check_measurements(double condition_cap) const {
         LobeTable measured = table_;
         measure_lobe_table(measured);
-        for (int l = 0; l < order_; ++l) {
-            const std::string cond = fmt::format("cond[{}]", l);
-            const double condition = measured.condition[l];
+        for (std::size_t i = 0; i < table_.use.bands.size(); ++i) {
+            const int l = table_.use.bands[i];
+            const std::string cond = fmt::format("cond[{}]", i);
+            const double condition = measured.condition[i];
             if (std::isinf(condition)) {
                 complain(cond, fmt::format("singular lobes in band {}", l),
                          fmt::format("{} independent lobes", 2 * l + 1));
@@ -190,13 +191,13 @@ class Verifier {
                 complain(cond, fmt::format("condition {:.6g}", condition),
                          fmt::format("at most {:g}", condition_cap));
             }
-            if (!(std::abs(table_.condition[l] - condition) <= kConditionTolerance * condition)) {
-                complain(cond, fmt::format("{:.6g}", table_.condition[l]),
+            if (!(std::abs(table_.condition[i] - condition) <= kConditionTolerance * condition)) {
+                complain(cond, fmt::format("{:.6g}", table_.condition[i]),
                          fmt::format("{:.6g}, which the directions give", condition));
             }
-            if (table_.zeros[l] != measured.zeros[l]) {
-                complain(fmt::format("zeros[{}]", l), std::to_string(table_.zeros[l]),
-                         fmt::format("{}, which the directions give", measured.zeros[l]));
+            if (table_.zeros[i] != measured.zeros[i]) {
+                complain(fmt::format("zeros[{}]", i), std::to_string(table_.zeros[i]),
+                         fmt::format("{}, which the directions give", measured.zeros[i]));
             }
         }
         if (table_.nonzeros != measured.nonzeros) {
@@ -206,7 +207,6 @@ class Verifier {
     }
 
     std::filesystem::path path_;
-    int order_;
     Json json_;
     LobeTable table_;
 };
@@ -225,7 +225,7 @@ std::string json_text(const LobeTable& table) {
     for (const double condition : table.condition) conditions.push_back(fmt::format("{:.6g}", condition));
     return fmt::format(
         "{{\n"
-        "  \"order\": {},\n"
+        "  \"{}\": {},\n"
         "  \"seed\": {},\n"
         "  \"command\": {},\n"
         "  \"directions\": [\n{}\n  ],\n"
@@ -234,31 +234,41 @@ std::string json_text(const LobeTable& table) {
         "  \"cond\": [{}],\n"
         "  \"nonzeros\": {}\n"
         "}}\n",
-        table.order, table.seed, Json(table.command).dump(), fmt::join(directions, ",\n"),
-        fmt::join(angles, ",\n"), fmt::join(table.zeros, ", "), fmt::join(conditions, ", "), table.nonzeros);
+        table.use.field, table.use.value, table.seed, Json(table.command).dump(),
+        fmt::join(directions, ",\n"), fmt::join(angles, ",\n"), fmt::join(table.zeros, ", "),
+        fmt::join(conditions, ", "), table.nonzeros);
 }
 
 }  // namespace
+
+LobeUse LobeUse::order(int n) {
+    LobeUse use{"order", n, {}};
+    for (int l = 0; l < n; ++l) use.bands.push_back(l);
+    return use;
+}
+
+LobeUse LobeUse::band(int l) { return {"band", l, {l}}; }
+
+std::filesystem::path LobeUse::table_name() const { return fmt::format("{}{:02d}.json", field, value); }
 
 void measure_lobe_table(LobeTable& table) {
     table.zeros.clear();
     table.condition.clear();
     table.nonzeros = 0;
-    for (const exact::BandFactorization& band : exact::factorize_order(table.order, table.directions)) {
+    for (const int l : table.use.bands) {
+        const exact::BandFactorization band = exact::factorize_band(l, table.directions);
         table.zeros.push_back(band.zeros);
         table.condition.push_back(band.condition);
         if (band.band >= 2) table.nonzeros += (2 * band.band + 1) * (2 * band.band + 1) - band.zeros;
     }
 }
 
-LobeTable read_lobe_table(const std::filesystem::path& path, int order, double condition_cap) {
-    return Verifier(path, order).read(condition_cap);
+LobeTable read_lobe_table(const std::filesystem::path& path, const LobeUse& use, double condition_cap) {
+    return Verifier(path, use).read(condition_cap);
 }
 
 void write_lobe_table(const std::filesystem::path& path, const LobeTable& table) {
     write_file_atomically(path, json_text(table));
 }
-
-std::filesystem::path lobe_table_name(int order) { return fmt::format("order{:02d}.json", order); }
 
 }  // namespace zonal

@@ -17,15 +17,30 @@ struct LobeAngles {
     std::string phi;
 };
 
-/// Saved lobe directions of an order and how they were found. Schema: generator/tables/README.md.
+/// What lobes are for: all bands of an order, which share them, or one band alone.
+struct LobeUse {
+    std::string field;       ///< of the file that says it: "order" or "band"
+    int value = 0;           ///< its value: N, or l
+    std::vector<int> bands;  ///< ascending: 0 … N-1, or l
+
+    static LobeUse order(int n);
+    static LobeUse band(int l);
+
+    /// Band l uses the first 2l+1 lobes.
+    int lobe_count() const { return 2 * bands.back() + 1; }
+    /// Name of its table inside a tables folder: orderNN.json, bandLL.json.
+    std::filesystem::path table_name() const;
+};
+
+/// Saved lobe directions and how they were found. Schema: generator/tables/README.md.
 struct LobeTable {
-    int order = 0;
+    LobeUse use;
     std::uint64_t seed = 0;
     std::string command;
-    std::vector<exact::Direction<exact::Real>> directions;  ///< 2*order-1, unit
+    std::vector<exact::Direction<exact::Real>> directions;  ///< unit, as many as `use` has lobes
     std::vector<LobeAngles> angles;                         ///< one per direction
-    std::vector<int> zeros;                                 ///< per band 0 … order-1
-    std::vector<double> condition;                          ///< cond_2(Y_l) per band 0 … order-1
+    std::vector<int> zeros;                                 ///< per band of `use`
+    std::vector<double> condition;                          ///< cond_2(Y_l) per band of `use`
     int nonzeros = 0;                                       ///< of all Â_l with l >= 2
     std::string sha256;                                     ///< of the file's bytes, hex; set by `read`
 };
@@ -33,20 +48,18 @@ struct LobeTable {
 /// Largest cond_2(Y_l) a table may have in any band.
 inline constexpr double kConditionCap = 50;
 
-/// Fills `zeros`, `condition` and `nonzeros` of a table from its `order` and `directions`, at 50 digits. A
-/// singular band has infinite condition and no zeros. Precondition: 2*order-1 directions.
+/// Fills `zeros`, `condition` and `nonzeros` of a table from its `use` and `directions`, at 50 digits. A
+/// singular band has infinite condition and no zeros. Precondition: `use.lobe_count()` directions.
 void measure_lobe_table(LobeTable& table);
 
 /// Reads a table and verifies it afresh at 50 digits. Throws `UserError` naming file, field,
-/// value and next step when the file is missing, truncated, of another order, has a duplicate or non-unit
+/// value and next step when the file is missing, truncated, for another use, has a duplicate or non-unit
 /// lobe, a singular band, one over `condition_cap`, or counts that its directions do not confirm.
-LobeTable read_lobe_table(const std::filesystem::path& path, int order, double condition_cap = kConditionCap);
+LobeTable read_lobe_table(const std::filesystem::path& path, const LobeUse& use,
+                          double condition_cap = kConditionCap);
 
 /// Writes under a temporary name beside `path`, then renames: a failed run leaves no half file. Precondition:
 /// the table is measured and no band is singular.
 void write_lobe_table(const std::filesystem::path& path, const LobeTable& table);
-
-/// The path of an order's table inside a tables folder: orderNN.json.
-std::filesystem::path lobe_table_name(int order);
 
 }  // namespace zonal

@@ -34,12 +34,12 @@ std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path
 
 std::optional<OrderLobes> load_lobes(int order, const std::filesystem::path& table_path) {
     const bool is_own = table_path.empty();
-    const std::filesystem::path path = is_own ? tables_folder() / lobe_table_name(order) : table_path;
+    const LobeUse use = LobeUse::order(order);
+    const std::filesystem::path path = is_own ? tables_folder() / use.table_name() : table_path;
     if (is_own && !std::filesystem::exists(path)) return std::nullopt;
     OrderLobes lobes;
-    lobes.table = read_lobe_table(path, order);
-    lobes.table_name =
-        is_own ? ("generator/tables" / lobe_table_name(order)).string() : path.filename().string();
+    lobes.table = read_lobe_table(path, use);
+    lobes.table_name = is_own ? ("generator/tables" / use.table_name()).string() : path.filename().string();
     lobes.set = {order, lobes.table.directions, exact::factorize_order(order, lobes.table.directions)};
     return lobes;
 }

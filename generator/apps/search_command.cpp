@@ -1,6 +1,7 @@
 #include "apps/search_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "exact/angles.hpp"
 #include "lobe_table.hpp"
@@ -41,15 +43,18 @@ class InterruptGuard {
 /// As the person typed them; zero means "by the method".
 struct Options {
     int order = 0;
+    int band = 0;
     std::uint64_t seed = 1;
     int generations = 0;
     double seconds = 0;
     std::string out;
     std::string resume;
+    std::string archive;
     bool is_plain = false;
     bool stays_on_grid = false;
     int islands = 4;
-    int zero_bands = 0;
+    std::vector<int> zero_bands;
+    std::vector<int> rings;
     int population = 0;
     int stall = 0;
     int elite = 2;
@@ -57,12 +62,17 @@ struct Options {
     double crossover = 0.8;
     double mutation = 0;
     search::Objective objective;
+
+    LobeUse use() const { return band > 0 ? LobeUse::band(band) : LobeUse::order(order); }
+    search::Problem problem() const {
+        return band > 0 ? search::Problem::one_band(band) : search::Problem::shared(order);
+    }
 };
 
 /// The table that `--resume` names, as lobes to start from.
 search::AngledSet read_start(const Options& options) {
     search::AngledSet lobes;
-    for (const auto& [theta, phi] : read_lobe_table(options.resume, options.order).angles) {
+    for (const auto& [theta, phi] : read_lobe_table(options.resume, options.use()).angles) {
         lobes.push_back(
             {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
     }
@@ -76,6 +86,7 @@ search::SearchSettings settings_of(const Options& options, const search::Problem
     settings.seconds = options.seconds;
     settings.islands = options.islands;
     settings.zero_bands = options.zero_bands;
+    settings.rings = options.rings;
     settings.leaves_grid = !options.stays_on_grid && !options.is_plain;
     settings.objective = options.objective;
     search::Genetic& genetic = settings.genetic;
@@ -94,16 +105,21 @@ search::SearchSettings settings_of(const Options& options, const search::Problem
 /// are those of the repository, whatever was typed.
 std::string canonical_command(const Options& options, int generations) {
     const Options standard;
-    std::string command = fmt::format("zonal-gen search --order {} --seed {} --generations {}", options.order,
-                                      options.seed, generations);
+    const LobeUse use = options.use();
+    std::string command = fmt::format("zonal-gen search --{} {} --seed {} --generations {}", use.field,
+                                      use.value, options.seed, generations);
     const auto add = [&](const char* name, const auto& value, const auto& default_value) {
         if (value != default_value) command += fmt::format(" {} {}", name, value);
     };
-    const std::string table = fmt::format("generator/tables/{}", lobe_table_name(options.order).string());
+    const std::string table = fmt::format("generator/tables/{}", use.table_name().string());
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
     if (!options.resume.empty()) command += " --resume " + table;
-    add("--zero-bands", options.zero_bands, standard.zero_bands);
+    const auto add_list = [&](const char* name, const std::vector<int>& values) {
+        if (!values.empty()) command += fmt::format(" {} {}", name, fmt::join(values, " "));
+    };
+    add_list("--zero-bands", options.zero_bands);
+    add_list("--rings", options.rings);
     add("--islands", options.islands, standard.islands);
     add("--population", options.population, standard.population);
     add("--stall", options.stall, standard.stall);
@@ -120,7 +136,7 @@ std::string canonical_command(const Options& options, int generations) {
 
 LobeTable table_of(const Options& options, const search::Solution& solution, int generations) {
     LobeTable table;
-    table.order = options.order;
+    table.use = options.use();
     table.seed = options.seed;
     table.command = canonical_command(options, generations);
     const search::AngledSet lobes = search::in_reading_order(solution.lobes);
@@ -130,6 +146,29 @@ LobeTable table_of(const Options& options, const search::Solution& solution, int
     }
     measure_lobe_table(table);
     return table;
+}
+
+void check_use(const Options& options) {
+    if (options.band == 0) return check_order(options.order, kSmallestSearchedOrder);
+    if (options.band < 2 || options.band >= kLargestOrder)
+        throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
+}
+
+std::string archive_text(const Options& options, const search::SearchResult& result) {
+    nlohmann::ordered_json sets = nlohmann::ordered_json::array();
+    for (const search::Solution& solution : result.front) {
+        nlohmann::ordered_json angles = nlohmann::ordered_json::array();
+        for (const search::AngledLobe& lobe : search::in_reading_order(solution.lobes))
+            angles.push_back({lobe.theta.text, lobe.phi.text});
+        sets.push_back({{"nonzeros", solution.score.nonzeros},
+                        {"multiplications", solution.score.multiplications},
+                        {"cond", solution.score.condition},
+                        {"angles", angles}});
+    }
+    const nlohmann::ordered_json archive{{options.use().field, options.use().value},
+                                         {"command", canonical_command(options, result.progress.generation)},
+                                         {"sets", sets}};
+    return archive.dump(2) + "\n";
 }
 
 /// Fails before a long search, not after it.
@@ -147,9 +186,10 @@ void check_is_writable(const std::filesystem::path& path) {
 }
 
 void run(const Options& options) {
-    check_order(options.order, kSmallestSearchedOrder);
+    check_use(options);
     check_is_writable(options.out);
-    const search::Problem problem = search::Problem::shared(options.order);
+    if (!options.archive.empty()) check_is_writable(options.archive);
+    const search::Problem problem = options.problem();
     const search::SearchSettings settings = settings_of(options, problem);
 
     const bool is_watched = isatty(STDERR_FILENO) != 0;
@@ -170,11 +210,13 @@ void run(const Options& options) {
     fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
     if (!result.best.score.is_allowed(options.objective)) {
         throw UserError(
-            fmt::format("--order {}: found no lobes of condition {:g} or less in {} generations; "
+            fmt::format("--{} {}: found no lobes of condition {:g} or less in {} generations; "
                         "raise --generations, change --seed, or drop --plain",
-                        options.order, options.objective.condition_cap, result.progress.generation));
+                        options.use().field, options.use().value, options.objective.condition_cap,
+                        result.progress.generation));
     }
     write_lobe_table(options.out, table_of(options, result.best, result.progress.generation));
+    if (!options.archive.empty()) write_file_atomically(options.archive, archive_text(options, result));
     fmt::print("{}\n", options.out);
 }
 
@@ -185,7 +227,10 @@ void add_search_command(CLI::App& app) {
         app.add_subcommand("search", "seek lobe directions for an order and save them as a table");
     const auto options = std::make_shared<Options>();
     Options& o = *options;
-    command->add_option("--order", o.order, "number of bands, 3 to 20")->required();
+    CLI::Option_group* use = command->add_option_group("use", "what the lobes are for");
+    use->add_option("--order", o.order, "number of bands that share the lobes, 3 to 20");
+    use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");
+    use->require_option(1);
     command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
         ->required();
     command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
@@ -200,12 +245,20 @@ void add_search_command(CLI::App& app) {
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
     command
         ->add_option("--zero-bands", o.zero_bands,
-                     "candidates lie at the zeros of bands 1 to this (default: N-1, as in the paper)")
+                     "candidates lie at the Legendre zeros of these bands (default: of all that share the "
+                     "lobes; of a band above 8 its own; of one below all up to it)")
         ->check(CLI::Range(1, 30));
+    command
+        ->add_option("--rings", o.rings,
+                     "candidates off the equator lie at phi = k pi / d for these d (default: by the bands)")
+        ->check(CLI::Range(1, 60));
+    command->add_option("--archive", o.archive,
+                        "JSON file for the sets that no other beats in nonzeros, multiplications and "
+                        "condition at once");
     command->add_option("--islands", o.islands, "populations that breed apart")
         ->capture_default_str()
         ->check(CLI::Range(1, 1024));
-    command->add_option("--population", o.population, "of an island (default: 60, or 500 with --plain)")
+    command->add_option("--population", o.population, "of an island (default: 6, or 500 with --plain)")
         ->check(CLI::Range(4, 1000000));
     command
         ->add_option("--stall", o.stall, "generations without improvement (default: 10, or 50 with --plain)")
@@ -213,7 +266,9 @@ void add_search_command(CLI::App& app) {
     command->add_option("--elite", o.elite, "individuals that survive")
         ->capture_default_str()
         ->check(CLI::Range(1, 4));
-    command->add_option("--local-moves", o.moves, "swaps tried on every child (default: 25 (2N-1)^2)")
+    command
+        ->add_option("--local-moves", o.moves,
+                     "swaps tried on every child (default: 400 times the square of the lobes)")
         ->check(CLI::PositiveNumber);
     command->add_option("--crossover", o.crossover, "fraction of children with two parents")
         ->capture_default_str()

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "exact/angles.hpp"
 #include "exact/spherical_harmonics.hpp"
@@ -26,22 +27,29 @@ std::int64_t turn_key(double phi) {
     return std::llround(phi / (2 * M_PI) * static_cast<double>(kTurn)) & (kTurn - 1);
 }
 
+std::vector<int> one_to(int max_band) {
+    std::vector<int> bands(max_band);
+    std::iota(bands.begin(), bands.end(), 1);
+    return bands;
+}
+
 }  // namespace
 
-CandidateGrid::CandidateGrid(int max_band, int zero_bands) : max_band_(max_band), profiles_(max_band + 1) {
-    if (zero_bands == 0) zero_bands = max_band;
+CandidateGrid::CandidateGrid(int max_band) : CandidateGrid(max_band, one_to(max_band)) {}
+
+CandidateGrid::CandidateGrid(int max_band, const std::vector<int>& zero_bands)
+    : max_band_(max_band), profiles_(max_band + 1) {
     pole_ = add_theta(fraction_of_pi(0, 1));
     equator_ = add_theta(fraction_of_pi(1, 2));
-    for (int l = 1; l <= zero_bands; ++l) {
+    for (const int l : zero_bands) {
         for (int m = 0; m < l; ++m) {
             for (const Angle& theta : legendre_zero_angles(l, m)) add_theta(theta);
         }
     }
     // sin(m phi) and cos(m phi) together vanish at the multiples of pi/(2m).
-    for (int m = 1; m <= zero_bands; ++m) {
+    for (int m = 1; m <= max_band; ++m) {
         for (int k = 0; k < 4 * m; ++k) add_phi(fraction_of_pi(k, 2 * m));
     }
-    coordinate_planes_ = {add_phi(fraction_of_pi(0, 1)), add_phi(fraction_of_pi(1, 2))};
 }
 
 int CandidateGrid::add_theta(const Angle& theta) {
@@ -95,13 +103,6 @@ int CandidateGrid::index_of_phi(double phi) const {
 Lobe CandidateGrid::random(Random& random) const {
     const int theta = random.below(static_cast<int>(thetas_.size()));
     return canonical(theta, random.below(static_cast<int>(phis_.size())));
-}
-
-Lobe CandidateGrid::random_on_great_circle(Random& random) const {
-    if (random.chance(0.5)) return canonical(equator_, random.below(static_cast<int>(phis_.size())));
-    const int theta = random.below(static_cast<int>(thetas_.size()));
-    const double phi = phi_values_[coordinate_planes_[random.below(2)]] + (random.chance(0.5) ? M_PI : 0.0);
-    return canonical(theta, index_of_phi(phi));
 }
 
 Lobe CandidateGrid::random_image(Lobe lobe, Random& random) const {

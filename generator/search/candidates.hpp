@@ -32,8 +32,11 @@ using LobeSet = std::vector<Lobe>;
 /// Nowrouzezahrai et al., section 5.
 class CandidateGrid {
   public:
-    /// Zeros of bands 1 … `zero_bands`, by default those of the bands that are evaluated, as in the paper.
-    explicit CandidateGrid(int max_band, int zero_bands = 0);
+    /// Zeros of bands 1 … max_band, as in the paper.
+    explicit CandidateGrid(int max_band);
+
+    /// Zeros in theta of the bands of `zero_bands`; in phi of 1 … max_band.
+    CandidateGrid(int max_band, const std::vector<int>& zero_bands);
 
     /// Index of the angle, which is appended when no angle of the grid is within 1e-40 of it. So a search can
     /// start from lobes that lie off the zeros. Precondition: 0 <= theta <= pi/2, 0 <= phi < 2 pi.
@@ -52,9 +55,6 @@ class CandidateGrid {
     /// Any theta with any phi, as the paper draws them.
     Lobe random(Random& random) const;
 
-    /// A lobe on one of the three coordinate great circles, where nearly all good lobes of even bands lie.
-    Lobe random_on_great_circle(Random& random) const;
-
     /// The image of a lobe under a random symmetry of the square about the z axis.
     Lobe random_image(Lobe lobe, Random& random) const;
 
@@ -71,7 +71,6 @@ class CandidateGrid {
     int max_band_;
     std::vector<Angle> thetas_, phis_;
     int pole_ = 0, equator_ = 0;
-    std::vector<int> coordinate_planes_;  // phi = 0 and pi/2
     std::vector<double> phi_values_;
     std::unordered_map<std::int64_t, int> phi_indices_;  // by phi in units of 2^-40 turns
     std::vector<std::vector<double>> profiles_;  // per band: y_l^m(theta, 0), m = 0 … l, theta after theta

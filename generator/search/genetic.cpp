@@ -13,7 +13,7 @@ namespace zonal::search {
 namespace {
 
 /// The range of lambda that is worth trying: low finds zeros, high finds good conditions.
-constexpr double kSmallestNormWeight = 0.05, kLargestNormWeight = 8;
+constexpr double kSmallestNormWeight = 0.2, kLargestNormWeight = 4;
 
 bool contains(const LobeSet& lobes, Lobe lobe) { return std::ranges::find(lobes, lobe) != lobes.end(); }
 
@@ -27,23 +27,29 @@ Genetic Genetic::of_paper() {
 
 Genetic Genetic::with_local_steps(const Problem& problem) {
     Genetic settings;
-    settings.population = 60;
+    settings.population = 6;
     settings.stall_generations = 10;
     settings.is_plain = false;
-    settings.local_step.moves = 25 * problem.lobe_count * problem.lobe_count;
+    settings.local_step.moves = 400 * problem.lobe_count * problem.lobe_count;
     return settings;
 }
 
-Population::Population(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
-                       const Genetic& settings, Random random)
-    : problem_(&problem), grid_(&grid), objective_(objective), settings_(settings), random_(random) {
+Population::Population(const Problem& problem, const CandidateGrid& grid, const Pool& pool,
+                       const Objective& objective, const Genetic& settings, Random random)
+    : problem_(&problem),
+      grid_(&grid),
+      pool_(&pool),
+      objective_(objective),
+      settings_(settings),
+      random_(random) {
     if (settings_.mutation_rate == 0) settings_.mutation_rate = 0.5 / problem.lobe_count;
     restart();
 }
 
 void Population::restart() {
     individuals_.clear();
-    for (int i = 0; i < settings_.population; ++i) individuals_.push_back(judge(random_lobes()));
+    for (int i = 0; i < settings_.population; ++i)
+        individuals_.push_back(judge(settings_.is_plain ? random_lobes() : regular_lobes()));
     sort();
     stalled_ = 0;
 }
@@ -55,29 +61,57 @@ Individual Population::judge(LobeSet lobes) {
 }
 
 LobeSet Population::random_lobes() {
-    const auto draw = [&] {
-        const bool is_as_in_paper = settings_.is_plain || random_.chance(0.5);
-        return is_as_in_paper ? grid_->random(random_) : grid_->random_on_great_circle(random_);
-    };
     LobeSet lobes;
     while (static_cast<int>(lobes.size()) < problem_->lobe_count) lobes.push_back(draw());
     return lobes;
 }
 
-void Population::evolve() {
+/// Random lobes that are regular in the highest band: each keeps part of its length when what the others span
+/// is taken away. Sets drawn blindly from a pool with much structure are nearly all singular.
+LobeSet Population::regular_lobes() {
+    const int l = problem_->highest_band(), size = 2 * l + 1;
+    constexpr double kSmallestPart = 0.15;
+    exact::Matrix<double> basis(size, size);
+    LobeSet lobes;
+    const int trials = 100 * size;
+    for (int trial = 0; trial < trials && static_cast<int>(lobes.size()) < size; ++trial) {
+        const Lobe lobe = draw();
+        const int known = static_cast<int>(lobes.size());
+        exact::Vector<double> row(size);
+        grid_->evaluate(l, lobe, row.data());
+        const double length = row.norm();
+        for (int pass = 0; pass < 2; ++pass)
+            row -= basis.leftCols(known) * (basis.leftCols(known).transpose() * row);
+        if (row.norm() < kSmallestPart * length) continue;
+        basis.col(known) = row.normalized();
+        lobes.push_back(lobe);
+    }
+    while (static_cast<int>(lobes.size()) < problem_->lobe_count) lobes.push_back(draw());
+    return lobes;
+}
+
+/// Annealed by swaps; from other lobes where these are singular, which crossing two sets may make them.
+LobeSet Population::improve(const LobeSet& lobes) {
+    const double norm_weight =
+        kSmallestNormWeight * std::pow(kLargestNormWeight / kSmallestNormWeight, random_.uniform());
+    TrackedInverses state(*problem_, *grid_, objective_, norm_weight);
+    constexpr int kTrials = 100;
+    bool is_regular = state.reset(lobes);
+    for (int trial = 0; !is_regular && trial < kTrials; ++trial) is_regular = state.reset(regular_lobes());
+    if (!is_regular) return lobes;
+    evaluations_ += settings_.local_step.moves;
+    return anneal_by_swaps(state, *grid_, *pool_, settings_.local_step, random_);
+}
+
+void Population::evolve(const std::function<bool()>& is_stopped) {
     const double best_before = best().cost;
     std::vector<Individual> next(individuals_.begin(), individuals_.begin() + settings_.elite);
-    while (static_cast<int>(next.size()) < settings_.population) {
+    while (static_cast<int>(next.size()) < settings_.population && !is_stopped()) {
         LobeSet child = breed();
-        if (!settings_.is_plain) {
-            Annealing local_step = settings_.local_step;
-            local_step.norm_weight =
-                kSmallestNormWeight * std::pow(kLargestNormWeight / kSmallestNormWeight, random_.uniform());
-            child = anneal_by_swaps(*problem_, *grid_, objective_, local_step, child, random_);
-            evaluations_ += local_step.moves;
-        }
-        next.push_back(judge(std::move(child)));
+        next.push_back(judge(settings_.is_plain ? std::move(child) : improve(child)));
     }
+    // What a stopped generation did not replace stays.
+    for (std::size_t i = next.size(); i < individuals_.size(); ++i) next.push_back(individuals_[i]);
     individuals_ = std::move(next);
     sort();
     stalled_ = best().cost < best_before ? 0 : stalled_ + 1;
@@ -114,8 +148,8 @@ LobeSet Population::cross_angles(const LobeSet& mother, const LobeSet& father) {
 /// A candidate that the set does not hold yet. Few bands have few candidates, so there may be none: then one
 /// that it holds, which makes it singular.
 Lobe Population::random_lobe_outside(const LobeSet& lobes) {
-    Lobe lobe = grid_->random(random_);
-    for (int trial = 0; trial < 100 && contains(lobes, lobe); ++trial) lobe = grid_->random(random_);
+    Lobe lobe = draw();
+    for (int trial = 0; trial < 100 && contains(lobes, lobe); ++trial) lobe = draw();
     return lobe;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "search/swap_annealing.hpp"
@@ -20,8 +21,7 @@ struct Genetic {
     /// As section 5 of the paper has it.
     static Genetic of_paper();
 
-    /// Genes are lobes and every child is annealed. A generation of 60 so does more than many plain ones of
-    /// 500.
+    /// Genes are lobes, and every child is annealed for long. Few such children do more than many plain ones.
     static Genetic with_local_steps(const Problem& problem);
 };
 
@@ -34,11 +34,12 @@ struct Individual {
 /// One island: a population that breeds by itself. All its randomness comes from the stream it is given.
 class Population {
   public:
-    Population(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
-               const Genetic& settings, Random random);
+    /// Plain, lobes are drawn from the grid, else from the pool.
+    Population(const Problem& problem, const CandidateGrid& grid, const Pool& pool,
+               const Objective& objective, const Genetic& settings, Random random);
 
-    /// One generation.
-    void evolve();
+    /// One generation; a part of it once `is_stopped()`.
+    void evolve(const std::function<bool()>& is_stopped = [] { return false; });
 
     /// Begins anew from random individuals; the stream of random numbers goes on.
     void restart();
@@ -61,6 +62,9 @@ class Population {
   private:
     Individual judge(LobeSet lobes);
     LobeSet random_lobes();
+    LobeSet regular_lobes();
+    LobeSet improve(const LobeSet& lobes);
+    Lobe draw() { return settings_.is_plain ? grid_->random(random_) : pool_->draw(random_); }
     LobeSet breed();
     const LobeSet& draw_parent();
     LobeSet cross_angles(const LobeSet& mother, const LobeSet& father);
@@ -72,6 +76,7 @@ class Population {
 
     const Problem* problem_;
     const CandidateGrid* grid_;
+    const Pool* pool_;
     Objective objective_;
     Genetic settings_;
     Random random_;

@@ -25,6 +25,9 @@ using exact::Real;
 /// An angle that moved less than this has not moved.
 constexpr double kStill = 1e-6;
 
+/// How many of the smallest entries are tried as further zeros.
+constexpr int kMostTargets = 24;
+
 /// A gain of cost that is worth leaving closed forms for.
 constexpr double kWorthwhile = 0.02;
 
@@ -114,7 +117,7 @@ class Refiner {
         return decomposition.rank() < movable;
     }
 
-    /// The entries of bands >= 2 that are not zero, smallest first.
+    /// The smallest entries of bands >= 2 that are not zero, smallest first.
     Pattern targets() const {
         Pattern targets;
         for (std::size_t b = 0; b < a_hats_.size(); ++b) {
@@ -129,6 +132,7 @@ class Refiner {
         std::ranges::stable_sort(targets, {}, [&](const Relation& target) {
             return std::abs(target.residual(a_hats_[target.band_index]));
         });
+        if (targets.size() > kMostTargets) targets.resize(kMostTargets);
         return targets;
     }
 

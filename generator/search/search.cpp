@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -16,9 +17,11 @@
 namespace zonal::search {
 namespace {
 
-/// A set this much dearer than the best may still overtake it off the grid.
+/// A set this much dearer than the best may still overtake it off the grid. Of many lobes, where a walk off
+/// the grid takes many seconds, only those walk that are the best so far.
 constexpr double kWorthRefining = 12;
-constexpr int kRefinedInAGeneration = 6;
+constexpr int kManyLobes = 21;
+constexpr int kRefinedInAGeneration = 2;
 
 bool is_better(const Solution& a, const Solution& b, const Objective& objective) {
     const double cost_a = a.score.cost(objective), cost_b = b.score.cost(objective);
@@ -27,21 +30,34 @@ bool is_better(const Solution& a, const Solution& b, const Objective& objective)
     return turning_cost(directions_of(a.lobes)) < turning_cost(directions_of(b.lobes));
 }
 
+bool is_dominated(const Score& a, const Score& b) {
+    return b.nonzeros <= a.nonzeros && b.multiplications <= a.multiplications &&
+           b.condition <= a.condition * (1 + 1e-9);
+}
+
+void add_to_front(std::vector<Solution>& front, const Solution& solution) {
+    const auto beats = [&](const Solution& other) { return is_dominated(solution.score, other.score); };
+    if (std::ranges::any_of(front, beats)) return;
+    std::erase_if(front, [&](const Solution& other) { return is_dominated(other.score, solution.score); });
+    front.push_back(solution);
+}
+
 class Island {
   public:
-    Island(const Problem& problem, const CandidateGrid& grid, const SearchSettings& settings, int index,
-           const std::optional<LobeSet>& start)
+    Island(const Problem& problem, const CandidateGrid& grid, const Pool& pool,
+           const SearchSettings& settings, int index, const std::optional<LobeSet>& start)
         : problem_(&problem),
           grid_(&grid),
           settings_(&settings),
-          population_(problem, grid, settings.objective, settings.genetic, Random(settings.seed, index)) {
+          population_(problem, grid, pool, settings.objective, settings.genetic,
+                      Random(settings.seed, index)) {
         if (start) population_.adopt(*start);
     }
 
-    void step(const std::atomic<bool>& stop) {
+    void step(const std::function<bool()>& is_stopped) {
         if (population_.has_stalled()) population_.restart();
-        population_.evolve();
-        confirm_new_sets(stop);
+        population_.evolve(is_stopped);
+        confirm_new_sets(is_stopped);
     }
 
     void receive(const LobeSet& lobes) { population_.adopt(lobes); }
@@ -51,10 +67,11 @@ class Island {
 
     const Population& population() const { return population_; }
     const Solution& best() const { return best_; }
+    const std::vector<Solution>& front() const { return front_; }
 
   private:
     /// Sets of one cost are nearly always images of each other, so a cost is looked at once.
-    void confirm_new_sets(const std::atomic<bool>& stop) {
+    void confirm_new_sets(const std::function<bool()>& is_stopped) {
         const double worst = population_.best().cost + kWorthRefining;
         int count = 0;
         for (const Individual& individual : population_.best_of_each_cost(settings_->genetic.population)) {
@@ -63,12 +80,15 @@ class Island {
             if (!confirmed_costs_.insert(key).second) continue;
             ++count;
             Solution solution = confirm(*problem_, with_angles(*grid_, individual.lobes));
-            if (settings_->leaves_grid) {
+            const bool may_walk =
+                problem_->lobe_count <= kManyLobes || is_better(solution, best_, settings_->objective);
+            if (settings_->leaves_grid && may_walk) {
                 const double cost_on_grid = solution.score.cost(settings_->objective);
-                solution = refine(*problem_, settings_->objective, solution, [&] { return stop.load(); });
+                solution = refine(*problem_, settings_->objective, solution, is_stopped);
                 if (solution.score.cost(settings_->objective) < cost_on_grid)
                     refined_.push_back(solution.lobes);
             }
+            if (solution.score.is_allowed(settings_->objective)) add_to_front(front_, solution);
             if (is_better(solution, best_, settings_->objective)) best_ = solution;
         }
     }
@@ -80,6 +100,7 @@ class Island {
     std::set<long long> confirmed_costs_;
     std::vector<AngledSet> refined_;
     Solution best_;
+    std::vector<Solution> front_;
 };
 
 /// Passes the best set of every island on to the next one.
@@ -109,7 +130,9 @@ LobeSet put_on_grid(CandidateGrid& grid, const AngledSet& set) {
 SearchResult search_lobes(const Problem& problem, const SearchSettings& settings,
                           const std::atomic<bool>& stop, const SearchObserver& observer) {
     const auto start_time = std::chrono::steady_clock::now();
-    CandidateGrid grid(problem.highest_band(), settings.zero_bands);
+    CandidateGrid grid(problem.highest_band(),
+                       settings.zero_bands.empty() ? usual_zero_bands(problem.bands) : settings.zero_bands);
+    Pool pool(grid, settings.rings.empty() ? usual_rings(problem.bands) : settings.rings);
     SearchResult result;
     std::optional<LobeSet> start;
     if (settings.start) {
@@ -117,16 +140,23 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
         result.best = confirm(problem, *settings.start);
     }
     std::vector<Island> islands;
-    for (int i = 0; i < settings.islands; ++i) islands.emplace_back(problem, grid, settings, i, start);
+    for (int i = 0; i < settings.islands; ++i) islands.emplace_back(problem, grid, pool, settings, i, start);
 
+    const auto is_stopped = [&] {
+        return stop || (settings.seconds > 0 && seconds_since(start_time) >= settings.seconds);
+    };
     Progress& progress = result.progress;
     progress.generations = settings.generations;
     int stalled = 0;
     while (true) {
-        tbb::parallel_for(0, settings.islands, [&](int i) { islands[i].step(stop); });
+        tbb::parallel_for(0, settings.islands, [&](int i) { islands[i].step(is_stopped); });
         // One after another, so that the grid grows in the same way every time.
         for (Island& island : islands) {
-            for (const AngledSet& set : island.take_refined()) island.receive(put_on_grid(grid, set));
+            for (const AngledSet& set : island.take_refined()) {
+                const LobeSet lobes = put_on_grid(grid, set);
+                for (const Lobe lobe : lobes) pool.add(lobe);
+                island.receive(lobes);
+            }
         }
         ++progress.generation;
         ++stalled;
@@ -159,8 +189,12 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
             settings.generations > 0 && progress.generation >= settings.generations;
         const bool is_told_when_to_end = settings.generations > 0 || settings.seconds > 0;
         const bool has_stalled = !is_told_when_to_end && stalled >= settings.genetic.stall_generations;
-        if (stop || is_out_of_time || has_run_its_generations || has_stalled) return result;
+        if (stop || is_out_of_time || has_run_its_generations || has_stalled) break;
     }
+    for (const Island& island : islands)
+        for (const Solution& solution : island.front()) add_to_front(result.front, solution);
+    std::ranges::stable_sort(result.front, {}, [](const Solution& s) { return s.score.nonzeros; });
+    return result;
 }
 
 }  // namespace zonal::search

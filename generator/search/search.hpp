@@ -18,8 +18,9 @@ struct SearchSettings {
     // With neither: until the best has not improved for `genetic.stall_generations`.
     int islands = 4;  ///< fixed, so that the result does not depend on the machine's cores
     int generations_between_exchanges = 10;
-    int zero_bands = 0;       ///< whose zeros are candidates, 1 … zero_bands; 0: as many as are sought
-    bool leaves_grid = true;  ///< refines the best sets off the grid
+    std::vector<int> zero_bands;  ///< whose zeros are candidates; empty: those of `usual_zero_bands`
+    std::vector<int> rings;       ///< meridians of the pool; empty: those of `usual_rings`
+    bool leaves_grid = true;      ///< refines the best sets off the grid
     Objective objective;
     Genetic genetic;
     std::optional<AngledSet> start;  ///< lobes to begin from
@@ -42,7 +43,9 @@ struct SearchObserver {
 };
 
 struct SearchResult {
-    Solution best;  ///< confirmed at 50 digits; no lobes when nothing but singular sets was met
+    Solution best;                ///< confirmed at 50 digits; no lobes when only singular sets were met
+    std::vector<Solution> front;  ///< of all confirmed sets, those that no other beats in nonzeros,
+                                  ///< multiplications and condition at once; fewest nonzeros first
     Progress progress;
 };
 

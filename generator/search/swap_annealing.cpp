@@ -19,14 +19,14 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 TrackedInverses::TrackedInverses(const Problem& problem, const CandidateGrid& grid,
                                  const Objective& objective, double norm_weight)
-    : grid_(&grid), objective_(objective), norm_weight_(norm_weight) {
+    : problem_(&problem), grid_(&grid), objective_(objective), norm_weight_(norm_weight) {
     for (const int l : problem.bands) {
         Band band;
         band.l = l;
         band.size = 2 * l + 1;
-        band.a_hat.resize(band.size, band.size);
-        band.trial.resize(band.size, band.size);
-        band.row.resize(band.size);
+        const int rows = (band.size + kPackedRows - 1) / kPackedRows * kPackedRows;
+        band.a_hat.setZero(rows, band.size);
+        band.row.setZero(rows);
         band.weights.resize(band.size);
         bands_.push_back(std::move(band));
     }
@@ -43,41 +43,27 @@ bool TrackedInverses::invert_afresh() {
     for (Band& band : bands_) {
         exact::Matrix<double> columns(band.size, band.size);
         for (int d = 0; d < band.size; ++d) grid_->evaluate(band.l, lobes_[d], columns.col(d).data());
-        band.a_hat = columns.transpose().inverse();
-        if (!(band.a_hat.squaredNorm() < kSingularSquaredNorm)) return false;
-        band.energy = band_energy(band, band.a_hat, kNever);
+        band.a_hat.topRows(band.size) = columns.transpose().inverse();
+        const ColumnSums sums = count(band.a_hat.data(), static_cast<int>(band.a_hat.rows()), band.size);
+        if (!(sums.squared_norm < kSingularSquaredNorm)) return false;
+        band.energy = energy_of(band, sums);
         energy_ += band.energy;
     }
     return true;
 }
 
-double TrackedInverses::band_energy(const Band& band, const exact::Matrix<double>& a_hat,
-                                    double limit) const {
+double TrackedInverses::energy_of(const Band& band, const ColumnSums& sums) const {
     // ||Y_l||_F = (2l+1) / sqrt(4 pi) for every set of directions, by the addition theorem.
-    const double norm_energy = 0.5 * norm_weight_ * std::log2(a_hat.squaredNorm() / (4 * M_PI));
-    BandCost cost;
-    cost.nonzeros = static_cast<int>((a_hat.array().abs() >= kZeroInDouble).count());
-    if (norm_energy + objective_.cost_of_band(band.l, cost) > limit) return kNever;
-    return norm_energy + objective_.cost_of_band(band.l, band_cost(a_hat.data(), band.size));
+    const double norm_energy = 0.5 * norm_weight_ * std::log2(sums.squared_norm / (4 * M_PI));
+    return objective_.cost_of_band(band.l, {sums.nonzeros, 0}) + norm_energy;
 }
 
-bool TrackedInverses::replace_row(Band& band, int position, Lobe lobe) const {
-    grid_->evaluate(band.l, lobe, band.row.data());
-    band.weights.noalias() = band.a_hat.transpose() * band.row;
-    const double pivot = band.weights(position);
-    if (!(std::abs(pivot) > kSmallestPivot)) return false;
-    const double* old_column = band.a_hat.col(position).data();
-    for (int j = 0; j < band.size; ++j) {
-        const double* from = band.a_hat.col(j).data();
-        double* to = band.trial.col(j).data();
-        if (j == position) {
-            for (int i = 0; i < band.size; ++i) to[i] = from[i] / pivot;
-        } else {
-            const double factor = band.weights(j) / pivot;
-            for (int i = 0; i < band.size; ++i) to[i] = from[i] - factor * old_column[i];
-        }
-    }
-    return true;
+/// Makes the change whose weights are known.
+void TrackedInverses::replace_row(Band& band) const {
+    const double pivot = band.weights(position_);
+    band.a_hat.col(position_) /= pivot;
+    for (int j = 0; j < band.size; ++j)
+        if (j != position_) band.a_hat.col(j) -= band.weights(j) * band.a_hat.col(position_);
 }
 
 double TrackedInverses::try_change(int position, Lobe lobe, int first_size_that_has_both, double limit) {
@@ -86,13 +72,16 @@ double TrackedInverses::try_change(int position, Lobe lobe, int first_size_that_
     for (auto band = bands_.rbegin(); band != bands_.rend(); ++band) {
         band->is_changed = band->size > position && band->size < first_size_that_has_both;
         if (!band->is_changed) continue;
-        if (!replace_row(*band, position, lobe)) return kNever;
-        const double others = trial_energy_ - band->energy;
+        const int rows = static_cast<int>(band->a_hat.rows());
+        grid_->evaluate(band->l, lobe, band->row.data());
+        multiply_columns(band->a_hat.data(), rows, band->size, band->row.data(), band->weights.data());
+        if (!(std::abs(band->weights(position)) > kSmallestPivot)) return kNever;
+        band->trial_energy = energy_of(
+            *band, count_after_swap(band->a_hat.data(), rows, band->size, position, band->weights.data()));
+        trial_energy_ += band->trial_energy - band->energy;
         // Bands below may still win something, but seldom more than this.
-        constexpr double kHope = 4;
-        band->trial_energy = band_energy(*band, band->trial, limit - others + (band->l > 2 ? kHope : 0));
-        trial_energy_ = others + band->trial_energy;
-        if (trial_energy_ == kNever) return kNever;
+        constexpr double kHope = 6;
+        if (trial_energy_ > limit + kHope) return kNever;
     }
     return trial_energy_;
 }
@@ -113,7 +102,7 @@ double TrackedInverses::try_exchange(int position, int other, double limit) {
 void TrackedInverses::accept() {
     for (Band& band : bands_) {
         if (band.is_changed) {
-            band.a_hat.swap(band.trial);
+            replace_row(band);
             band.energy = band.trial_energy;
         } else if (other_ >= 0 && band.size > other_) {
             band.a_hat.col(position_).swap(band.a_hat.col(other_));
@@ -130,23 +119,29 @@ void TrackedInverses::accept() {
 
 namespace {
 
+/// The lobe with these angles; any where the pool does not hold it.
+Lobe crossing(const CandidateGrid& grid, const Pool& pool, int theta, int phi, Random& random) {
+    const Lobe lobe = grid.canonical(theta, phi);
+    return pool.contains(lobe) ? lobe : pool.draw(random);
+}
+
 /// A lobe to put at `position`.
-Lobe draw_replacement(const CandidateGrid& grid, const LobeSet& lobes, int position, Random& random) {
+Lobe draw_replacement(const CandidateGrid& grid, const Pool& pool, const LobeSet& lobes, int position,
+                      Random& random) {
     const Lobe old = lobes[position];
     const Lobe other = lobes[random.below(static_cast<int>(lobes.size()))];
     switch (random.below(8)) {
         case 0:
-            return grid.random(random);
         case 1:
-            return grid.random_on_great_circle(random);
+            return pool.draw(random);
         case 2:
-            return grid.canonical(old.theta, random.below(static_cast<int>(grid.phis().size())));
+            return pool.draw_on_parallel(old, random);
         case 3:
-            return grid.canonical(random.below(static_cast<int>(grid.thetas().size())), old.phi);
+            return pool.draw_on_meridian(old, random);
         case 4:
-            return grid.canonical(other.theta, old.phi);
+            return crossing(grid, pool, other.theta, old.phi, random);
         case 5:
-            return grid.canonical(old.theta, other.phi);
+            return crossing(grid, pool, old.theta, other.phi, random);
         case 6:
             return grid.random_image(old, random);
         default:
@@ -156,11 +151,10 @@ Lobe draw_replacement(const CandidateGrid& grid, const LobeSet& lobes, int posit
 
 }  // namespace
 
-LobeSet anneal_by_swaps(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
-                        const Annealing& settings, const LobeSet& lobes, Random& random) {
-    TrackedInverses state(problem, grid, objective, settings.norm_weight);
-    if (!state.reset(lobes)) return lobes;
-    LobeSet best = lobes;
+LobeSet anneal_by_swaps(TrackedInverses& state, const CandidateGrid& grid, const Pool& pool,
+                        const Annealing& settings, Random& random) {
+    const Problem& problem = state.problem();
+    LobeSet best = state.lobes();
     double best_energy = state.energy();
     double temperature = settings.start_temperature;
     const double cooling =
@@ -175,8 +169,9 @@ LobeSet anneal_by_swaps(const Problem& problem, const CandidateGrid& grid, const
             if (other == position) continue;
             energy = state.try_exchange(std::min(position, other), std::max(position, other), limit);
         } else {
-            energy =
-                state.try_replace(position, draw_replacement(grid, state.lobes(), position, random), limit);
+            const Lobe lobe = draw_replacement(grid, pool, state.lobes(), position, random);
+            if (lobe == state.lobes()[position]) continue;
+            energy = state.try_replace(position, lobe, limit);
         }
         if (!(energy <= limit)) continue;
         state.accept();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "search/column_sums.hpp"
+#include "search/pool.hpp"
 #include "search/random.hpp"
 #include "search/score.hpp"
 
@@ -8,7 +10,7 @@ namespace zonal::search {
 /// How a set of lobes is improved by swaps.
 struct Annealing {
     int moves = 1000;
-    double start_temperature = 1.0;  ///< in units of cost
+    double start_temperature = 1.5;  ///< in nonzeros
     double end_temperature = 0.15;
     double norm_weight = 1.0;  ///< lambda: of log2(||Â_l||_F ||Y_l||_F / (2l+1)), summed over the bands
 };
@@ -17,17 +19,24 @@ struct Annealing {
 /// Replacing row d of Y by r is a rank-one change: with w = r Â, column d of the inverse becomes Â_d / w_d,
 /// and every other column j loses w_j times that (Sherman and Morrison). Errors grow by 1/|w_d|, so small
 /// pivots are refused and the inverses are computed afresh now and then.
+///
+/// The energy is what can be counted in one pass over Â: the nonzeros and norm_weight times
+/// log2(||Â_l||_F ||Y_l||_F / (2l+1)), summed over the bands.
 class TrackedInverses {
   public:
     TrackedInverses(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
                     double norm_weight);
+
+    const Problem& problem() const { return *problem_; }
 
     /// Starts from these lobes. False when they are singular: then no other function may be called.
     bool reset(const LobeSet& lobes);
 
     const LobeSet& lobes() const { return lobes_; }
     double energy() const { return energy_; }
-    const exact::Matrix<double>& a_hat(int band_index) const { return bands_[band_index].a_hat; }
+    exact::Matrix<double> a_hat(int band_index) const {
+        return bands_[band_index].a_hat.topRows(bands_[band_index].size);
+    }
 
     /// Energy after replacing the lobe at `position`, or after exchanging the lobes at `position < other`;
     /// infinite when a pivot is too small. Gives up, with infinity, as soon as it must exceed `limit`.
@@ -40,17 +49,18 @@ class TrackedInverses {
   private:
     struct Band {
         int l = 0, size = 0;
-        exact::Matrix<double> a_hat, trial;
-        exact::Vector<double> row, weights;
+        exact::Matrix<double> a_hat;         // columns padded with zeros to whole packs
+        exact::Vector<double> row, weights;  // padded too
         double energy = 0, trial_energy = 0;
         bool is_changed = false;  // by the last tried change
     };
 
     double try_change(int position, Lobe lobe, int first_size_that_has_both, double limit);
-    bool replace_row(Band& band, int position, Lobe lobe) const;
-    double band_energy(const Band& band, const exact::Matrix<double>& a_hat, double limit) const;
+    void replace_row(Band& band) const;
+    double energy_of(const Band& band, const ColumnSums& sums) const;
     bool invert_afresh();
 
+    const Problem* problem_;
     const CandidateGrid* grid_;
     Objective objective_;
     double norm_weight_;
@@ -62,9 +72,9 @@ class TrackedInverses {
     int accepted_since_refresh_ = 0;
 };
 
-/// Improves `lobes` by swaps under a falling temperature; returns the best set it met. A singular start comes
-/// back unchanged.
-LobeSet anneal_by_swaps(const Problem& problem, const CandidateGrid& grid, const Objective& objective,
-                        const Annealing& settings, const LobeSet& lobes, Random& random);
+/// Improves a set by swaps under a falling temperature; returns the best set it met. Precondition: `state`
+/// was reset to a regular set.
+LobeSet anneal_by_swaps(TrackedInverses& state, const CandidateGrid& grid, const Pool& pool,
+                        const Annealing& settings, Random& random);
 
 }  // namespace zonal::search

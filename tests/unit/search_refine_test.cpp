@@ -126,8 +126,9 @@ TEST(Polish, gives_up_on_a_pattern_that_cannot_hold) {
 
 TEST(Refine, gains_zeros_of_band_4_off_the_grid) {
     const Problem problem = Problem::one_band(4);
-    const CandidateGrid grid(4);
-    Population population(problem, grid, {}, Genetic::with_local_steps(problem), Random(1, 0));
+    CandidateGrid grid(4);
+    const Pool pool(grid, {4, 6});
+    Population population(problem, grid, pool, {}, Genetic::with_local_steps(problem), Random(1, 0));
     for (int generation = 0; generation < 3; ++generation) population.evolve();
     const Solution start = confirm(problem, with_angles(grid, population.best().lobes));
     const Solution refined = refine(problem, {}, start, never);
@@ -146,8 +147,9 @@ TEST(Refine, gains_zeros_of_band_4_off_the_grid) {
 
 TEST(Refine, leaves_alone_what_has_no_freedom) {
     const Problem problem = Problem::one_band(2);
-    const CandidateGrid grid(2);
-    Population population(problem, grid, {}, Genetic::with_local_steps(problem), Random(1, 0));
+    CandidateGrid grid(2);
+    const Pool pool(grid, {4, 6});
+    Population population(problem, grid, pool, {}, Genetic::with_local_steps(problem), Random(1, 0));
     population.evolve();
     const Solution start = confirm(problem, with_angles(grid, population.best().lobes));
     ASSERT_EQ(start.score.zeros, 16);
