@@ -1,6 +1,7 @@
 #include "graph/sum.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace zonal::graph {
 
@@ -54,15 +55,22 @@ Value linear_combination(Graph& graph, const std::vector<Term>& terms) {
     return sum;
 }
 
-int multiplications(const std::vector<Number>& factors) {
-    std::vector<Number> sizes;
-    for (const Number& factor : factors) {
-        if (factor == 0 || is_same_size(Number(1), factor)) continue;
-        if (std::none_of(sizes.begin(), sizes.end(),
-                         [&](const Number& s) { return is_same_size(s, factor); }))
-            sizes.push_back(factor);
+std::vector<int> size_numbers(const std::vector<Number>& factors) {
+    const int count = static_cast<int>(factors.size());
+    std::vector<int> by_size(count);
+    std::iota(by_size.begin(), by_size.end(), 0);
+    std::stable_sort(by_size.begin(), by_size.end(),
+                     [&](int a, int b) { return abs(factors[a]) < abs(factors[b]); });
+    std::vector<int> first_equal(count);  // the earliest factor of that size
+    for (int begin = 0, end = 0; begin < count; begin = end) {
+        while (end < count && is_same_size(factors[by_size[begin]], factors[by_size[end]])) ++end;
+        const int first = *std::min_element(by_size.begin() + begin, by_size.begin() + end);
+        for (int at = begin; at < end; ++at) first_equal[by_size[at]] = first;
     }
-    return static_cast<int>(sizes.size());
+    std::vector<int> numbers(count);
+    int next = 0;
+    for (int i = 0; i < count; ++i) numbers[i] = first_equal[i] == i ? next++ : numbers[first_equal[i]];
+    return numbers;
 }
 
 }  // namespace zonal::graph

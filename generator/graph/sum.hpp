@@ -16,7 +16,8 @@ struct Term {
 /// of instructions after fusing is the number of nonzero terms either way. Precondition: `terms` not empty.
 Value linear_combination(Graph& graph, const std::vector<Term>& terms);
 
-/// Multiplications of that sum, fused or not.
-int multiplications(const std::vector<Number>& factors);
+/// The number of each factor's |factor| among the different ones, in the order they first appear. Factors that
+/// are equal but for their last digits have one number.
+std::vector<int> size_numbers(const std::vector<Number>& factors);
 
 }  // namespace zonal::graph
