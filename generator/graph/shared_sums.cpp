@@ -5,15 +5,12 @@
 // follows. Costs are those of `linear_combination` after fusing. Source of the idea: Paar 1997, "Optimized
 // arithmetic for Reed-Solomon encoders" (pairs of terms); Hosangadi, Fallah, Kastner 2006, "Optimizing
 // polynomial expressions by algebraic factorization and common subexpression elimination" (sets of terms).
-// Limits: no step is ever taken back, and sets agree only where their sizes do: a f + b g is not found in
-// c (a f + b g) unless a = b.
+// Limits: no step is ever taken back.
 #include "graph/shared_sums.hpp"
 
 #include <algorithm>
 #include <compare>
 #include <span>
-#include <tuple>
-#include <utility>
 
 #include "graph/sum.hpp"
 
@@ -24,7 +21,7 @@ namespace {
 using Term = SharedSums::Term;
 using Row = SharedSums::Row;
 
-constexpr int kUnit = 0;  ///< the size 1
+constexpr int kUnit = Sizes::kUnit;
 
 struct Saving {
     int instructions = 0;
@@ -32,135 +29,152 @@ struct Saving {
     friend auto operator<=>(const Saving&, const Saving&) = default;
 };
 
-/// How the terms of a set differ between two rows. Either every term has one size in both rows, and the set's
-/// sum keeps the sizes; or all terms have one size in each row, and the set's sum is of ±1.
+/// How the terms of a set differ between two rows: second = sign * quotient * first.
 struct Relation {
-    bool keeps_sizes = false;
-    int first_size = kUnit;   ///< what the set's sum is multiplied by
-    int second_size = kUnit;
+    int quotient = kUnit;
     int sign = 1;
     friend auto operator<=>(const Relation&, const Relation&) = default;
 };
 
-/// A term that two rows have in common.
+/// A term that two rows have in common; its sign is the first row's.
 struct CommonTerm {
     Relation relation;
-    Term in_sum;  ///< as the sum of the set has it, but for the sign of the whole
+    int first_size = kUnit, second_size = kUnit;
+    int variable = 0;
+    int sign = 1;
+    friend auto operator<=>(const CommonTerm&, const CommonTerm&) = default;
 };
 
-bool by_relation_and_size(const CommonTerm& a, const CommonTerm& b) {
-    return std::tie(a.relation, a.in_sum.size, a.in_sum.variable) <
-           std::tie(b.relation, b.in_sum.size, b.in_sum.variable);
-}
-
-/// Signs are those of the first row.
-std::vector<CommonTerm> common_terms(const Row& first, const Row& second) {
+/// Those of one relation side by side, and among them those of one size.
+std::vector<CommonTerm> common_terms(const Row& first, const Row& second, Sizes& sizes) {
     std::vector<CommonTerm> common;
     auto b = second.begin();
     for (const Term& a : first) {
         while (b != second.end() && b->variable < a.variable) ++b;
         if (b == second.end()) break;
         if (b->variable != a.variable) continue;
-        const int sign = a.sign * b->sign;
-        if (a.size == b->size) common.push_back({{true, kUnit, kUnit, sign}, a});
-        if (a.size != kUnit || b->size != kUnit)
-            common.push_back({{false, a.size, b->size, sign}, {a.variable, kUnit, a.sign}});
+        const Relation relation{sizes.quotient(b->size, a.size), a.sign * b->sign};
+        common.push_back({relation, a.size, b->size, a.variable, a.sign});
     }
-    std::sort(common.begin(), common.end(), by_relation_and_size);
+    std::sort(common.begin(), common.end());
     return common;
 }
 
-/// A row under search and what its cost depends on.
-class CountedRow {
-  public:
-    CountedRow(Row row, int size_count) : row_(std::move(row)), uses_(size_count, 0) {
-        for (const Term& term : row_) ++uses_[term.size];
-    }
-    const Row& terms() const { return row_; }
-    int uses(int size) const { return uses_[size]; }
-    /// A chain that starts from ±1 needs no first multiplication.
-    bool has_unit() const { return uses_[kUnit] > 0; }
+bool has_earlier_variable(const Term& a, const Term& b) { return a.variable < b.variable; }
 
-    /// The terms of a set give way to their sum.
-    void replace(const Row& set, const Term& sum) {
-        for (const Term& gone : set) remove(gone.variable);
-        ++uses_[sum.size];
-        row_.push_back(sum);  // the newest variable is the last
-    }
-
-  private:
-    void remove(int variable) {
-        const auto at = std::lower_bound(row_.begin(), row_.end(), variable,
-                                         [](const Term& term, int v) { return term.variable < v; });
-        --uses_[at->size];
-        row_.erase(at);
-    }
-
-    Row row_;                ///< variables ascend
-    std::vector<int> uses_;  ///< terms of each size
-};
+int count_of(const Row& row, int size) {
+    return static_cast<int>(
+        std::count_if(row.begin(), row.end(), [&](const Term& term) { return term.size == size; }));
+}
 
 using CommonRange = std::span<const CommonTerm>;
 
 /// The terms at the front that agree in what `part` tells of them.
 template <class Part>
 CommonRange front_run(CommonRange terms, Part part) {
-    const auto is_other = [&](const CommonTerm& term) { return part(term) != part(terms.front()); };
-    const auto end = std::find_if(terms.begin(), terms.end(), is_other);
-    return terms.first(end - terms.begin());
+    const auto is_other = [&](const CommonTerm& term) { return term.*part != terms.front().*part; };
+    return terms.first(std::find_if(terms.begin(), terms.end(), is_other) - terms.begin());
 }
 
-const Relation& relation_of(const CommonTerm& term) { return term.relation; }
-int size_of(const CommonTerm& term) { return term.in_sum.size; }
+/// Terms of one relation, counted by size.
+struct CommonSet {
+    struct Group {
+        int first_size, second_size, count;
+    };
+    Relation relation;
+    int length = 0;
+    std::vector<Group> groups;
+};
 
-/// What it saves to make a set its own row. A row of n terms is n instructions, one less with a ±1 among them;
-/// each size but 1 is a multiplication.
-Saving saving_of(CommonRange set, const CountedRow& first, const CountedRow& second) {
-    const int length = static_cast<int>(set.size());
-    // Its sum of ±1 is length - 1 additions, and in both rows one term stands for so many.
-    if (!set.front().relation.keeps_sizes) return {length - 1, 0};
-    Saving saving{length - first.has_unit() - second.has_unit(), 0};
-    while (!set.empty()) {
-        const CommonRange same = front_run(set, size_of);
-        const int size = size_of(same.front()), count = static_cast<int>(same.size());
-        if (size == kUnit)
-            ++saving.instructions;
-        else
-            saving.multiplications += (first.uses(size) == count) + (second.uses(size) == count) - 1;
-        set = set.subspan(same.size());
+CommonSet counted(CommonRange terms) {
+    CommonSet set{terms.front().relation, static_cast<int>(terms.size()), {}};
+    for (; !terms.empty(); terms = terms.subspan(set.groups.back().count)) {
+        const CommonTerm& term = terms.front();
+        const int count = static_cast<int>(front_run(terms, &CommonTerm::first_size).size());
+        set.groups.push_back({term.first_size, term.second_size, count});
     }
+    return set;
+}
+
+/// What the sum of a set is multiplied by in both rows; it is the set of the first row divided by `first`.
+struct Factors {
+    int first = kUnit, second = kUnit;
+};
+
+/// A row is an instruction a term, one less where its chain can start from ±1, and a multiplication a size other
+/// than 1. So much goes when a set gives way to its sum times `factor`.
+Saving saving_in_row(const Row& row, const CommonSet& set, int CommonSet::Group::* size, int factor) {
+    Saving saving{set.length - 1, 0};
+    int units = count_of(row, kUnit), like_factor = count_of(row, factor);
+    const bool had_unit = units > 0;
+    for (const CommonSet::Group& group : set.groups) {
+        if (group.*size == kUnit)
+            units -= group.count;
+        else
+            saving.multiplications += count_of(row, group.*size) == group.count;
+        if (group.*size == factor) like_factor -= group.count;
+    }
+    if (factor == kUnit)
+        ++units;
+    else
+        saving.multiplications -= like_factor == 0;
+    saving.instructions += (units > 0) - had_unit;
     return saving;
+}
+
+Saving saving_of(const CommonSet& set, const Row& first, const Row& second, Factors factors) {
+    const Saving in_first = saving_in_row(first, set, &CommonSet::Group::first_size, factors.first);
+    const Saving in_second = saving_in_row(second, set, &CommonSet::Group::second_size, factors.second);
+    const bool has_unit =
+        std::any_of(set.groups.begin(), set.groups.end(),
+                    [&](const CommonSet::Group& group) { return group.first_size == factors.first; });
+    const int sizes = static_cast<int>(set.groups.size());
+    return {in_first.instructions + in_second.instructions - (set.length - has_unit),
+            in_first.multiplications + in_second.multiplications - (sizes - has_unit)};
 }
 
 struct Sharing {
     Saving saving;
     Relation relation;
+    Factors factors;
 };
 
-Sharing best_sharing(const CountedRow& first, const CountedRow& second) {
+/// The sum either keeps the sizes of its terms, if they are the same in both rows, or has one that is 1.
+Sharing best_sharing(const Row& first, const Row& second, Sizes& sizes) {
     Sharing best;
-    const std::vector<CommonTerm> common = common_terms(first.terms(), second.terms());
+    const std::vector<CommonTerm> common = common_terms(first, second, sizes);
     for (CommonRange rest(common); !rest.empty();) {
-        const CommonRange set = front_run(rest, relation_of);
-        const Saving saving = saving_of(set, first, second);
-        if (saving > best.saving) best = {saving, set.front().relation};
-        rest = rest.subspan(set.size());
+        const CommonRange terms = front_run(rest, &CommonTerm::relation);
+        rest = rest.subspan(terms.size());
+        const CommonSet set = counted(terms);
+        const auto consider = [&](Factors factors) {
+            const Saving saving = saving_of(set, first, second, factors);
+            if (saving > best.saving) best = {saving, set.relation, factors};
+        };
+        if (set.relation.quotient == kUnit) consider({});
+        if (set.length == 1) continue;
+        for (const CommonSet::Group& group : set.groups) consider({group.first_size, group.second_size});
     }
     return best;
 }
 
+/// The terms of a set give way to their sum.
+void replace(Row& row, const Row& set, const Term& sum) {
+    for (const Term& gone : set)
+        std::erase_if(row, [&](const Term& term) { return term.variable == gone.variable; });
+    row.push_back(sum);  // the newest variable is the last
+}
+
 class Search {
   public:
-    Search(const std::vector<Row>& outputs, int input_count, int size_count)
-        : input_count_(input_count), size_count_(size_count) {
+    Search(const std::vector<Row>& outputs, int input_count, Sizes& sizes)
+        : input_count_(input_count), sizes_(sizes) {
         for (const Row& row : outputs) add_row(row);
     }
 
     std::vector<Row> run() {
         while (const std::optional<Pair> pair = best_pair()) share(*pair);
-        std::vector<Row> rows;
-        for (const CountedRow& row : rows_) rows.push_back(row.terms());
-        return rows;
+        return rows_;
     }
 
   private:
@@ -172,7 +186,7 @@ class Search {
     Sharing& sharing(Pair pair) { return sharings_[pair.first][pair.second]; }
 
     void add_row(const Row& row) {
-        rows_.emplace_back(row, size_count_);
+        rows_.push_back(row);
         sharings_.emplace_back(row_count() - 1);
         compare_with_all(row_count() - 1);
     }
@@ -181,7 +195,7 @@ class Search {
         for (int other = 0; other < row_count(); ++other) {
             if (other == row) continue;
             const Pair pair{std::max(row, other), std::min(row, other)};
-            sharing(pair) = best_sharing(rows_[pair.first], rows_[pair.second]);
+            sharing(pair) = best_sharing(rows_[pair.first], rows_[pair.second], sizes_);
         }
     }
 
@@ -199,24 +213,29 @@ class Search {
     }
 
     void share(Pair pair) {
-        const Relation relation = sharing(pair).relation;
+        const Sharing shared = sharing(pair);
+        Row& first = rows_[pair.first];
+        Row& second = rows_[pair.second];
         Row set;
-        for (const CommonTerm& term : common_terms(rows_[pair.first].terms(), rows_[pair.second].terms()))
-            if (term.relation == relation) set.push_back(term.in_sum);
-        std::sort(set.begin(), set.end(),
-                  [](const Term& a, const Term& b) { return a.variable < b.variable; });
+        for (const CommonTerm& term : common_terms(first, second, sizes_))
+            if (term.relation == shared.relation)
+                set.push_back(
+                    {term.variable, sizes_.quotient(term.first_size, shared.factors.first), term.sign});
+        std::sort(set.begin(), set.end(), has_earlier_variable);
+        // The first term is positive: a sum and its negative are one row.
         const int sign = set.front().sign;
         for (Term& term : set) term.sign *= sign;
         const int sum = input_count_ + row_count();
-        rows_[pair.first].replace(set, {sum, relation.first_size, sign});
-        rows_[pair.second].replace(set, {sum, relation.second_size, sign * relation.sign});
+        replace(first, set, {sum, shared.factors.first, sign});
+        replace(second, set, {sum, shared.factors.second, sign * shared.relation.sign});
         compare_with_all(pair.first);
         compare_with_all(pair.second);
         add_row(set);
     }
 
-    int input_count_, size_count_;
-    std::vector<CountedRow> rows_;
+    int input_count_;
+    Sizes& sizes_;
+    std::vector<Row> rows_;                       ///< variables ascend
     std::vector<std::vector<Sharing>> sharings_;  ///< [first][second], first > second
 };
 
@@ -225,20 +244,15 @@ class Search {
 SharedSums::SharedSums(Graph& graph, const std::vector<std::vector<Number>>& factors,
                        std::vector<Value> inputs)
     : graph_(&graph), inputs_(std::move(inputs)) {
-    std::vector<Number> all{1};
-    for (const std::vector<Number>& row : factors) all.insert(all.end(), row.begin(), row.end());
-    const std::vector<int> sizes = size_numbers(all);
-    for (std::size_t at = 0; at < all.size(); ++at)
-        if (sizes[at] == static_cast<int>(sizes_.size())) sizes_.push_back(abs(all[at]));
     std::vector<Row> outputs;
-    auto size = sizes.begin() + 1;
-    for (const std::vector<Number>& factors_of_row : factors) {
+    for (const std::vector<Number>& of_output : factors) {
         Row row;
-        for (int k = 0; k < static_cast<int>(factors_of_row.size()); ++k, ++size)
-            if (factors_of_row[k] != 0) row.push_back({k, *size, factors_of_row[k] < 0 ? -1 : 1});
+        for (int k = 0; k < static_cast<int>(of_output.size()); ++k)
+            if (of_output[k] != 0)
+                row.push_back({k, sizes_.number_of(of_output[k]), of_output[k] < 0 ? -1 : 1});
         outputs.push_back(row);
     }
-    rows_ = Search(outputs, static_cast<int>(inputs_.size()), static_cast<int>(sizes_.size())).run();
+    rows_ = Search(outputs, static_cast<int>(inputs_.size()), sizes_).run();
     made_.resize(rows_.size());
 }
 

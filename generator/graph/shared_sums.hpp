@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "graph/graph.hpp"
+#include "graph/sizes.hpp"
 
 namespace zonal::graph {
 
@@ -22,7 +23,7 @@ class SharedSums {
     /// A factor ±size of a variable: an input, or behind the inputs a row.
     struct Term {
         int variable = 0;
-        int size = 0;  ///< an index into the sizes; 0 is 1
+        int size = Sizes::kUnit;
         int sign = 1;
     };
     /// A sum to make: an output, or behind the outputs what others have in common.
@@ -31,7 +32,7 @@ class SharedSums {
   private:
     Graph* graph_;
     std::vector<Value> inputs_;
-    std::vector<Number> sizes_;  ///< all different, the first is 1
+    Sizes sizes_;
     std::vector<Row> rows_;
     std::vector<std::optional<Value>> made_;  ///< a row's value, once it was asked for
 };

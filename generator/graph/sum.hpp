@@ -16,8 +16,4 @@ struct Term {
 /// of instructions after fusing is the number of nonzero terms either way. Precondition: `terms` not empty.
 Value linear_combination(Graph& graph, const std::vector<Term>& terms);
 
-/// The number of each factor's |factor| among the different ones, in the order they first appear. Factors that
-/// are equal but for their last digits have one number.
-std::vector<int> size_numbers(const std::vector<Number>& factors);
-
 }  // namespace zonal::graph

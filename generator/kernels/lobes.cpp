@@ -17,6 +17,7 @@
 #include "graph/counts.hpp"
 #include "graph/passes.hpp"
 #include "graph/shared_sums.hpp"
+#include "graph/sizes.hpp"
 #include "graph/sum.hpp"
 #include "kernels/lobe_tensor.hpp"
 #include "kernels/rotation_scalars.hpp"
@@ -169,25 +170,21 @@ class LobeHarmonics {
 /// anyway: the one that leaves the fewest factors other than ±1, those of equal size in a column counted once.
 Real cheapest_weight_scale(const exact::BandFactorization& band) {
     const int l = band.band;
-    const int size = band_size(l);
-    std::vector<Real> scales{Real(1)};
-    for (int m = -l; m <= l; ++m) scales.push_back(1 / exact::basis_scale(l, m));
-    const int first_entry = static_cast<int>(scales.size());
-    for (const Real& entry : band.a_hat.reshaped()) scales.push_back(entry);
-    const std::vector<int> numbers = graph::size_numbers(scales);
-
-    // saved[n]: columns and outputs that scale number n turns into ±1.
-    std::vector<int> saved(scales.size(), 0);
-    for (int at = 1; at < first_entry; ++at) ++saved[numbers[at]];
-    for (int d = 0; d < size; ++d) {
-        const auto column = numbers.begin() + first_entry + d * size;
-        for (const int number : std::set<int>(column, column + size)) ++saved[number];
+    graph::Sizes scales;
+    std::vector<int> saved(1, 0);  // by scale: columns and outputs that it turns into ±1
+    const auto count = [&](const std::set<int>& numbers) {
+        saved.resize(scales.count(), 0);
+        for (const int number : numbers) ++saved[number];
+    };
+    for (int m = -l; m <= l; ++m) count({scales.number_of(1 / exact::basis_scale(l, m))});
+    for (int d = 0; d < band_size(l); ++d) {
+        std::set<int> numbers;
+        for (const Real& entry : band.a_hat.col(d))
+            if (entry != 0) numbers.insert(scales.number_of(entry));
+        count(numbers);
     }
     // The first of equally cheap ones.
-    int best = 0;
-    for (int at = 0; at < static_cast<int>(scales.size()); ++at)
-        if (scales[at] != 0 && saved[numbers[at]] > saved[numbers[best]]) best = at;
-    return abs(scales[best]);
+    return scales[std::max_element(saved.begin(), saved.end()) - saved.begin()];
 }
 
 /// Band 1 is a vector in space (y, z, x): the paper turns it directly ("optimal linear lobe").
