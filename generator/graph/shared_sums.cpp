@@ -101,9 +101,9 @@ struct Factors {
     int first = kUnit, second = kUnit;
 };
 
-/// A row is an instruction a term, one less where its chain can start from ±1, and a multiplication a size other
-/// than 1. So much goes when a set gives way to its sum times `factor`.
-Saving saving_in_row(const Row& row, const CommonSet& set, int CommonSet::Group::* size, int factor) {
+/// A row is an instruction a term, one less where its chain can start from ±1, and a multiplication a size
+/// other than 1. So much goes when a set gives way to its sum times `factor`.
+Saving saving_in_row(const Row& row, const CommonSet& set, int CommonSet::Group::*size, int factor) {
     Saving saving{set.length - 1, 0};
     int units = count_of(row, kUnit), like_factor = count_of(row, factor);
     const bool had_unit = units > 0;

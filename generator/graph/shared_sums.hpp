@@ -8,8 +8,8 @@
 
 namespace zonal::graph {
 
-/// All outputs of a constant matrix times a vector of values, with the partial sums that several outputs have in
-/// common made once: as few instructions after fusing as a greedy search finds, and among equals as few
+/// All outputs of a constant matrix times a vector of values, with the partial sums that several outputs have
+/// in common made once: as few instructions after fusing as a greedy search finds, and among equals as few
 /// multiplications. The search compares whole numbers only, so it finds the same on every machine.
 class SharedSums {
   public:

@@ -8,8 +8,8 @@
 
 namespace zonal::graph {
 
-/// Numbers the sizes |factor| != 0 of constants in the order they are met, 1 before all others. Sizes that differ
-/// in their last digits only are one, so that a search can compare whole numbers.
+/// Numbers the sizes |factor| != 0 of constants in the order they are met, 1 before all others. Sizes that
+/// differ in their last digits only are one, so that a search can compare whole numbers.
 class Sizes {
   public:
     static constexpr int kUnit = 0;  ///< the size 1

@@ -53,8 +53,7 @@ graph::SharedSums band_sums(Kernel& kernel, int array, int l, Weight weight) {
 template <class Weight>
 void build_band_products(Kernel& kernel, const LobeSet& lobes, const char* result_name, Weight weight) {
     for (int l = 0; l < lobes.order; ++l) {
-        graph::SharedSums sums =
-            band_sums(kernel, 0, l, [&](int i, int k) { return weight(l, i, k); });
+        graph::SharedSums sums = band_sums(kernel, 0, l, [&](int i, int k) { return weight(l, i, k); });
         for (int i = 0; i < band_size(l); ++i) {
             kernel.graph.set_scope(fmt::format("b{}_{}{}", l, result_name, i));
             kernel.store(band_start(l) + i, sums.output(i), l);
@@ -167,7 +166,8 @@ class LobeHarmonics {
 };
 
 /// A common factor taken out of a band's weights ẑ and put into the constants its outputs are multiplied by
-/// anyway: the one that leaves the fewest factors other than ±1, those of equal size in a column counted once.
+/// anyway: the one that leaves the fewest factors other than ±1, those of equal size in a column counted
+/// once.
 Real cheapest_weight_scale(const exact::BandFactorization& band) {
     const int l = band.band;
     graph::Sizes scales;
@@ -202,8 +202,8 @@ void build_band_1(Kernel& kernel, const Matrix3& rows) {
 void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vector<LobeHarmonics>& harmonics) {
     const int l = band.band;
     const Real weight_scale = cheapest_weight_scale(band);
-    graph::SharedSums shared = band_sums(
-        kernel, 1, l, [&](int d, int m) -> Real { return band.a_hat(m, d) / weight_scale; });
+    graph::SharedSums shared =
+        band_sums(kernel, 1, l, [&](int d, int m) -> Real { return band.a_hat(m, d) / weight_scale; });
     std::vector<Value> weights, sums(band_size(l), Value{&kernel.graph, kernel.graph.constant(0)});
     for (int d = 0; d < band_size(l); ++d) {
         kernel.graph.set_scope(fmt::format("b{}_d{}", l, d));
@@ -232,10 +232,8 @@ int factorization_multiplications(const exact::BandFactorization& band) {
     Kernel kernel;
     const int end = band_start(band.band + 1);
     kernel.inputs = {{"f", Kind::signal, end, kSignalLayout}};
-    graph::SharedSums sums =
-        band_sums(kernel, 0, band.band, [&](int d, int m) { return band.a_hat(m, d); });
-    for (int d = 0; d < band_size(band.band); ++d)
-        kernel.store(band_start(band.band) + d, sums.output(d), 0);
+    graph::SharedSums sums = band_sums(kernel, 0, band.band, [&](int d, int m) { return band.a_hat(m, d); });
+    for (int d = 0; d < band_size(band.band); ++d) kernel.store(band_start(band.band) + d, sums.output(d), 0);
     return graph::count_operations(graph::optimize(kernel)).total().multiplications();
 }
 
