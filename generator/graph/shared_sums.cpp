@@ -2,10 +2,10 @@
 //
 // Greedy search: of all pairs of rows and all sets of terms that agree in both up to a factor, the set that
 // saves most becomes a row of its own, which both then use as one term; rows made so take part in what
-// follows. Costs are those of `linear_combination` after fusing. Source of the idea: Paar 1997, "Optimized
-// arithmetic for Reed-Solomon encoders" (pairs of terms); Hosangadi, Fallah, Kastner 2006, "Optimizing
-// polynomial expressions by algebraic factorization and common subexpression elimination" (sets of terms).
-// Limits: no step is ever taken back.
+// follows. Costs are those of `linear_combination` after fusing.
+// Source: Paar 1997, "Optimized arithmetic for Reed-Solomon encoders" (pairs of terms); Hosangadi, Fallah,
+// Kastner 2004, "Common subexpression elimination involving multiple variables for linear DSP synthesis".
+// Limits: no step is ever taken back. A sum made of proportional terms brings a new constant, their ratio.
 #include "graph/shared_sums.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace zonal::graph {
 
 namespace {
 
-using Term = SharedSums::Term;
+using Entry = SharedSums::Entry;
 using Row = SharedSums::Row;
 
 constexpr int kUnit = Sizes::kUnit;
@@ -49,7 +49,7 @@ struct CommonTerm {
 std::vector<CommonTerm> common_terms(const Row& first, const Row& second, Sizes& sizes) {
     std::vector<CommonTerm> common;
     auto b = second.begin();
-    for (const Term& a : first) {
+    for (const Entry& a : first) {
         while (b != second.end() && b->variable < a.variable) ++b;
         if (b == second.end()) break;
         if (b->variable != a.variable) continue;
@@ -60,11 +60,11 @@ std::vector<CommonTerm> common_terms(const Row& first, const Row& second, Sizes&
     return common;
 }
 
-bool has_earlier_variable(const Term& a, const Term& b) { return a.variable < b.variable; }
+bool has_earlier_variable(const Entry& a, const Entry& b) { return a.variable < b.variable; }
 
 int count_of(const Row& row, int size) {
     return static_cast<int>(
-        std::count_if(row.begin(), row.end(), [&](const Term& term) { return term.size == size; }));
+        std::count_if(row.begin(), row.end(), [&](const Entry& entry) { return entry.size == size; }));
 }
 
 using CommonRange = std::span<const CommonTerm>;
@@ -159,9 +159,9 @@ Sharing best_sharing(const Row& first, const Row& second, Sizes& sizes) {
 }
 
 /// The terms of a set give way to their sum.
-void replace(Row& row, const Row& set, const Term& sum) {
-    for (const Term& gone : set)
-        std::erase_if(row, [&](const Term& term) { return term.variable == gone.variable; });
+void replace(Row& row, const Row& set, const Entry& sum) {
+    for (const Entry& gone : set)
+        std::erase_if(row, [&](const Entry& entry) { return entry.variable == gone.variable; });
     row.push_back(sum);  // the newest variable is the last
 }
 
@@ -212,25 +212,29 @@ class Search {
         return best;
     }
 
+    /// The set of the first row divided by its factor.
+    Row sum_of(Pair pair, const Sharing& shared) {
+        Row sum;
+        for (const CommonTerm& term : common_terms(rows_[pair.first], rows_[pair.second], sizes_))
+            if (term.relation == shared.relation)
+                sum.push_back(
+                    {term.variable, sizes_.quotient(term.first_size, shared.factors.first), term.sign});
+        std::sort(sum.begin(), sum.end(), has_earlier_variable);
+        return sum;
+    }
+
     void share(Pair pair) {
         const Sharing shared = sharing(pair);
-        Row& first = rows_[pair.first];
-        Row& second = rows_[pair.second];
-        Row set;
-        for (const CommonTerm& term : common_terms(first, second, sizes_))
-            if (term.relation == shared.relation)
-                set.push_back(
-                    {term.variable, sizes_.quotient(term.first_size, shared.factors.first), term.sign});
-        std::sort(set.begin(), set.end(), has_earlier_variable);
-        // The first term is positive: a sum and its negative are one row.
-        const int sign = set.front().sign;
-        for (Term& term : set) term.sign *= sign;
-        const int sum = input_count_ + row_count();
-        replace(first, set, {sum, shared.factors.first, sign});
-        replace(second, set, {sum, shared.factors.second, sign * shared.relation.sign});
+        Row sum = sum_of(pair, shared);
+        // It begins with a plus, so that a sum and its negative are one row.
+        const int sign = sum.front().sign;
+        for (Entry& entry : sum) entry.sign *= sign;
+        const int variable = input_count_ + row_count();
+        replace(rows_[pair.first], sum, {variable, shared.factors.first, sign});
+        replace(rows_[pair.second], sum, {variable, shared.factors.second, sign * shared.relation.sign});
         compare_with_all(pair.first);
         compare_with_all(pair.second);
-        add_row(set);
+        add_row(sum);
     }
 
     int input_count_;
@@ -259,11 +263,11 @@ SharedSums::SharedSums(Graph& graph, const std::vector<std::vector<Number>>& fac
 Value SharedSums::output(int i) {
     if (made_[i]) return *made_[i];
     const int input_count = static_cast<int>(inputs_.size());
-    std::vector<graph::Term> terms;
-    for (const Term& term : rows_[i]) {
+    std::vector<Term> terms;
+    for (const Entry& entry : rows_[i]) {
         const Value value =
-            term.variable < input_count ? inputs_[term.variable] : output(term.variable - input_count);
-        terms.push_back({term.sign * sizes_[term.size], value});
+            entry.variable < input_count ? inputs_[entry.variable] : output(entry.variable - input_count);
+        terms.push_back({entry.sign * sizes_[entry.size], value});
     }
     made_[i] = linear_combination(*graph_, terms);
     return *made_[i];

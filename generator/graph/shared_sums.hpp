@@ -21,13 +21,13 @@ class SharedSums {
     Value output(int i);
 
     /// A factor ±size of a variable: an input, or behind the inputs a row.
-    struct Term {
+    struct Entry {
         int variable = 0;
         int size = Sizes::kUnit;
         int sign = 1;
     };
     /// A sum to make: an output, or behind the outputs what others have in common.
-    using Row = std::vector<Term>;
+    using Row = std::vector<Entry>;
 
   private:
     Graph* graph_;

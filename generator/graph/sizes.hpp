@@ -15,6 +15,7 @@ class Sizes {
     static constexpr int kUnit = 0;  ///< the size 1
 
     Sizes();
+    /// Precondition: factor != 0.
     int number_of(const Number& factor);
     /// The number of [a] / [b].
     int quotient(int a, int b);

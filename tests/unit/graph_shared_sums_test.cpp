@@ -84,7 +84,7 @@ TEST(SharedSums, are_the_product_of_matrix_and_vector) {
     }
 }
 
-TEST(SharedSums, never_cost_more_instructions_than_row_by_row) {
+TEST(SharedSums, save_what_rows_repeat_and_never_add) {
     std::mt19937 random(2);
     int shared = 0, separate = 0;
     for (int trial = 0; trial < 50; ++trial) {
@@ -95,7 +95,8 @@ TEST(SharedSums, never_cost_more_instructions_than_row_by_row) {
         shared += with;
         separate += without;
     }
-    EXPECT_LT(shared, 0.8 * separate);
+    // Every third row repeats about four terms: three of eight instructions of that row.
+    EXPECT_LT(shared, (1 - 0.3 / 3) * separate);
 }
 
 TEST(SharedSums, a_butterfly_makes_both_of_its_sums_once) {
