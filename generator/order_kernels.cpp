@@ -40,7 +40,23 @@ std::optional<OrderLobes> load_lobes(int order, const std::filesystem::path& tab
     OrderLobes lobes;
     lobes.table = read_lobe_table(path, use);
     lobes.table_name = is_own ? ("generator/tables" / use.table_name()).string() : path.filename().string();
-    lobes.set = {order, lobes.table.directions, exact::factorize_order(order, lobes.table.directions)};
+    lobes.set = kernels::LobeSet::shared(order, lobes.table.directions);
+    return lobes;
+}
+
+std::optional<BandLobes> load_band_lobes(int order) {
+    using Direction = exact::Direction<exact::Real>;
+    BandLobes lobes;
+    std::vector<std::vector<Direction>> directions{
+        {Direction::UnitZ()}, {Direction::UnitY(), Direction::UnitZ(), Direction::UnitX()}};
+    for (int l = 2; l < order; ++l) {
+        const LobeUse use = LobeUse::band(l);
+        const std::filesystem::path path = tables_folder() / use.table_name();
+        if (!std::filesystem::exists(path)) return std::nullopt;
+        lobes.tables.push_back(read_lobe_table(path, use));
+        directions.push_back(lobes.tables.back().directions);
+    }
+    lobes.set = kernels::LobeSet::per_band(directions);
     return lobes;
 }
 
@@ -56,7 +72,10 @@ OrderKernels build_order_kernels(int order, const std::filesystem::path& table_p
     OrderKernels result;
     result.order = order;
     result.lobes = load_lobes(order, table_path);
-    result.kernels = kernels::build_order(order, result.lobes ? &result.lobes->set : nullptr);
+    if (result.lobes) result.band_lobes = load_band_lobes(order);
+    result.kernels =
+        kernels::build_order(order, {.shared = result.lobes ? &result.lobes->set : nullptr,
+                                     .per_band = result.band_lobes ? &result.band_lobes->set : nullptr});
     result.bounds = read_bounds(tables_folder() / "bounds.json", order,
                                 result.lobes ? result.lobes->table.sha256.substr(0, kHashDigits) : "");
     return result;

@@ -15,8 +15,6 @@ namespace zonal {
 
 /// Order 1 is a constant: nothing turns.
 inline constexpr int kSmallestOrder = 2;
-/// Band 2 is the first whose lobes can be chosen.
-inline constexpr int kSmallestSearchedOrder = 3;
 inline constexpr int kLargestOrder = 20;
 /// Digits of a table's sha256 that banners and the file of bounds name it by.
 inline constexpr int kHashDigits = 16;
@@ -31,10 +29,17 @@ struct OrderLobes {
     kernels::LobeSet set;
 };
 
+/// The lobes that bands 2 … order-1 have of their own.
+struct BandLobes {
+    std::vector<LobeTable> tables;  ///< of those bands
+    kernels::LobeSet set;           ///< of all bands; bands 0 and 1 take the pole and the axes
+};
+
 /// The kernels of an order, as `emit` and `stats` need them.
 struct OrderKernels {
     int order = 0;
     std::optional<OrderLobes> lobes;  ///< none where the project has no table of this order
+    std::optional<BandLobes> band_lobes;  ///< none where a band's table is missing
     std::vector<graph::Kernel> kernels;
     std::map<std::string, emit::Bound> bounds;  ///< those published for these very kernels
 };

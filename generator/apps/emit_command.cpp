@@ -49,15 +49,25 @@ const graph::Kernel& kernel_named(const OrderKernels& order, const std::string& 
                          [&](const graph::Kernel& kernel) { return kernel.name == name; });
 }
 
+std::vector<std::string> tables_of(const OrderKernels& order) {
+    if (!order.lobes) return {"none for this order, so no searched lobes: zonal-gen search"};
+    const auto describe = [](const std::string& name, const LobeTable& table) {
+        return fmt::format("{}  sha256:{}", name, table.sha256.substr(0, kHashDigits));
+    };
+    std::vector<std::string> tables{describe(order.lobes->table_name, order.lobes->table)};
+    if (order.band_lobes)
+        for (const LobeTable& table : order.band_lobes->tables)
+            tables.push_back(describe(("generator/tables" / table.use.table_name()).string(), table));
+    return tables;
+}
+
 emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", options.order);
     unit.command = fmt::format(
         "zonal-gen emit --order {} --language {}{} --out generated/{}", options.order, options.language,
         options.table.empty() ? "" : " --table " + order.lobes->table_name, options.language);
-    unit.table = order.lobes ? fmt::format("{}  sha256:{}", order.lobes->table_name,
-                                           order.lobes->table.sha256.substr(0, kHashDigits))
-                             : "none for this order, so no lobe kernels: zonal-gen search";
+    unit.tables = tables_of(order);
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
     unit.kernels = order.kernels;
     for (const graph::Kernel& kernel : unit.kernels)

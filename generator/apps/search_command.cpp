@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "exact/angles.hpp"
+#include "kernels/registry.hpp"
 #include "lobe_table.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
@@ -149,7 +150,7 @@ LobeTable table_of(const Options& options, const search::Solution& solution, int
 }
 
 void check_use(const Options& options) {
-    if (options.band == 0) return check_order(options.order, kSmallestSearchedOrder);
+    if (options.band == 0) return check_order(options.order, kernels::kSmallestLobeOrder);
     if (options.band < 2 || options.band >= kLargestOrder)
         throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
 }

@@ -28,7 +28,7 @@ struct Constant {
 struct Unit {
     std::string name;     ///< "order4": namespace or prefix
     std::string command;  ///< the command that makes the same bytes again
-    std::string table;    ///< path and hash of the lobe table; or that there is none
+    std::vector<std::string> tables;  ///< path and hash of each lobe table; or that there is none
     std::string basis;    ///< the convention, one line
     std::vector<std::string> sources;
     std::vector<graph::Kernel> kernels;

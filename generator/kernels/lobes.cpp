@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "exact/legendre.hpp"
+#include "exact/ring.hpp"
 #include "exact/spherical_harmonics.hpp"
 #include "graph/counts.hpp"
 #include "graph/passes.hpp"
@@ -33,32 +35,68 @@ using graph::Value;
 
 const char* const kPaper = "Nowrouzezahrai, Simari, Fiume 2012, ";
 const char* const kSignalLayout = "index l(l+1)+m";
-const char* const kLobeLayout = "band l at l*l, lobe d at l*l + d, d = 0 .. 2l in table order";
 
 int band_start(int l) { return l * l; }
 int band_size(int l) { return 2 * l + 1; }
 
-/// out_i = sum_k weight(i, k) * in_k within a band, and what the outputs share.
-template <class Weight>
-graph::SharedSums band_sums(Kernel& kernel, int array, int l, Weight weight) {
-    std::vector<std::vector<Real>> weights(band_size(l));
-    std::vector<Value> inputs;
-    for (int k = 0; k < band_size(l); ++k) inputs.push_back(kernel.input(array, band_start(l) + k));
-    for (int i = 0; i < band_size(l); ++i)
-        for (int k = 0; k < band_size(l); ++k) weights[i].push_back(weight(i, k));
-    return {kernel.graph, weights, std::move(inputs)};
+/// Some values of an array, one after another.
+struct Range {
+    int array = 0, first = 0, count = 0;
+};
+
+Range signal_range(int array, int l) { return {array, band_start(l), band_size(l)}; }
+
+Range weight_range(const LobeSet& lobes, int array, int l) {
+    return {array, lobes.weight_start(l), static_cast<int>(lobes.lobes_of[l].size())};
 }
 
-/// out_i = sum_k weight(l, i, k) * in_k within every band.
-template <class Weight>
-void build_band_products(Kernel& kernel, const LobeSet& lobes, const char* result_name, Weight weight) {
-    for (int l = 0; l < lobes.order; ++l) {
-        graph::SharedSums sums = band_sums(kernel, 0, l, [&](int i, int k) { return weight(l, i, k); });
-        for (int i = 0; i < band_size(l); ++i) {
-            kernel.graph.set_scope(fmt::format("b{}_{}{}", l, result_name, i));
-            kernel.store(band_start(l) + i, sums.output(i), l);
-        }
+bool is_ring(const LobeSet& lobes) { return lobes.lobes_of[0].size() > 1; }
+
+std::string weight_layout(const LobeSet& lobes) {
+    if (is_ring(lobes)) {
+        const std::size_t count = lobes.lobes_of[0].size();
+        return fmt::format("band l at {0}*l, lobe d at {0}*l + d, d = 0 .. {1} around the ring", count,
+                           count - 1);
     }
+    return "band l at l*l, lobe d at l*l + d, d = 0 .. 2l in table order";
+}
+
+graph::Array signal_array(const LobeSet& lobes, const char* name) {
+    return {name, Kind::signal, lobes.order * lobes.order, "index l(l+1)+m"};
+}
+
+graph::Array weight_array(const LobeSet& lobes, const char* name) {
+    return {name, Kind::signal, lobes.weight_start(lobes.order), weight_layout(lobes)};
+}
+
+/// The sums over k of matrix(i, k) * in_k, and what they share.
+graph::SharedSums shared_sums(Kernel& kernel, const exact::Matrix<Real>& matrix, const Range& in) {
+    std::vector<std::vector<Real>> factors;
+    std::vector<Value> inputs;
+    for (int k = 0; k < in.count; ++k) inputs.push_back(kernel.input(in.array, in.first + k));
+    for (const auto& row : matrix.rowwise()) factors.emplace_back(row.begin(), row.end());
+    return {kernel.graph, factors, std::move(inputs)};
+}
+
+/// Stores matrix * in, a band's. Where signal and weights of a band lie at different places, all bands are
+/// stored at the end, so that the kernel may write over its input.
+void build_band_product(Kernel& kernel, const LobeSet& lobes, int l, const exact::Matrix<Real>& matrix,
+                        const Range& in, int out, const char* result_name) {
+    graph::SharedSums sums = shared_sums(kernel, matrix, in);
+    for (int i = 0; i < matrix.rows(); ++i) {
+        kernel.graph.set_scope(fmt::format("b{}_{}{}", l, result_name, i));
+        kernel.store(out + i, sums.output(i), is_ring(lobes) ? 0 : l);
+    }
+}
+
+/// Y_l of a band's lobes, exact zeros where it vanishes.
+exact::Matrix<Real> expansion(const LobeSet& lobes, int l) {
+    exact::Matrix<Real> y(lobes.lobes_of[l].size(), band_size(l));
+    for (int d = 0; d < y.rows(); ++d)
+        y.row(d) = exact::evaluate_band<Real>(l, lobes.directions[lobes.lobes_of[l][d]]).transpose();
+    for (Real& entry : y.reshaped())
+        if (abs(entry) < exact::kZeroThreshold) entry = 0;
+    return y;
 }
 
 Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direction<Real>& direction,
@@ -177,14 +215,15 @@ Real cheapest_weight_scale(const exact::BandFactorization& band) {
         for (const int number : numbers) ++saved[number];
     };
     for (int m = -l; m <= l; ++m) count({scales.number_of(1 / exact::basis_scale(l, m))});
-    for (int d = 0; d < band_size(l); ++d) {
+    for (int d = 0; d < band.a_hat.cols(); ++d) {
         std::set<int> numbers;
         for (const Real& entry : band.a_hat.col(d))
             if (entry != 0) numbers.insert(scales.number_of(entry));
         count(numbers);
     }
     // The first of equally cheap ones.
-    return scales[std::max_element(saved.begin(), saved.end()) - saved.begin()];
+    const auto best = std::max_element(saved.begin(), saved.end());
+    return scales[static_cast<int>(best - saved.begin())];
 }
 
 /// Band 1 is a vector in space (y, z, x): the paper turns it directly ("optimal linear lobe").
@@ -199,20 +238,21 @@ void build_band_1(Kernel& kernel, const Matrix3& rows) {
 }
 
 /// f'_lm = scale_lm * sum_d ẑ_d q_l^m(z_d) {C_m, S_m}(x_d, y_d), lobe by lobe.
-void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vector<LobeHarmonics>& harmonics) {
-    const int l = band.band;
+void build_band(Kernel& kernel, const LobeSet& lobes, int l, std::vector<LobeHarmonics>& harmonics) {
+    const exact::BandFactorization& band = lobes.bands[l];
+    const int count = static_cast<int>(lobes.lobes_of[l].size());
     const Real weight_scale = cheapest_weight_scale(band);
-    graph::SharedSums shared =
-        band_sums(kernel, 1, l, [&](int d, int m) -> Real { return band.a_hat(m, d) / weight_scale; });
+    const exact::Matrix<Real> scaled = band.a_hat.transpose() / weight_scale;
+    graph::SharedSums shared = shared_sums(kernel, scaled, signal_range(1, l));
     std::vector<Value> weights, sums(band_size(l), Value{&kernel.graph, kernel.graph.constant(0)});
-    for (int d = 0; d < band_size(l); ++d) {
+    for (int d = 0; d < count; ++d) {
         kernel.graph.set_scope(fmt::format("b{}_d{}", l, d));
         weights.push_back(shared.output(d));
         kernel.graph.set_name(weights.back().id, fmt::format("b{}_d{}", l, d));
     }
-    for (int d = 0; d < band_size(l); ++d) {
+    for (int d = 0; d < count; ++d) {
         kernel.graph.set_scope(fmt::format("b{}_d{}", l, d));
-        LobeHarmonics& lobe = harmonics[d];
+        LobeHarmonics& lobe = harmonics[lobes.lobes_of[l][d]];
         sums[l] = sums[l] + lobe.legendre(l, 0) * weights[d];
         for (int m = 1; m <= l; ++m) {
             const auto [cosine, sine] = lobe.power(m);
@@ -228,12 +268,50 @@ void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vecto
 
 }  // namespace
 
+LobeSet LobeSet::shared(int order, const std::vector<exact::Direction<Real>>& directions) {
+    LobeSet set{order, directions, {}, exact::factorize_order(order, directions)};
+    for (int l = 0; l < order; ++l) {
+        set.lobes_of.emplace_back(band_size(l));
+        std::iota(set.lobes_of[l].begin(), set.lobes_of[l].end(), 0);
+    }
+    return set;
+}
+
+LobeSet LobeSet::ring(int order) {
+    const exact::Ring ring = exact::best_ring(order);
+    LobeSet set{order, ring.directions(), {}, {}};
+    std::vector<int> all(ring.count);
+    std::iota(all.begin(), all.end(), 0);
+    for (int l = 0; l < order; ++l) {
+        set.lobes_of.push_back(all);
+        set.bands.push_back(ring.factorize(l));
+    }
+    return set;
+}
+
+LobeSet LobeSet::per_band(const std::vector<std::vector<exact::Direction<Real>>>& directions) {
+    LobeSet set;
+    set.order = static_cast<int>(directions.size());
+    for (int l = 0; l < set.order; ++l) {
+        set.bands.push_back(exact::factorize_band(l, directions[l]));
+        set.lobes_of.emplace_back(band_size(l));
+        std::iota(set.lobes_of[l].begin(), set.lobes_of[l].end(), static_cast<int>(set.directions.size()));
+        set.directions.insert(set.directions.end(), directions[l].begin(), directions[l].end());
+    }
+    return set;
+}
+
+int LobeSet::weight_start(int l) const {
+    int start = 0;
+    for (int band = 0; band < l; ++band) start += static_cast<int>(lobes_of[band].size());
+    return start;
+}
+
 int factorization_multiplications(const exact::BandFactorization& band) {
     Kernel kernel;
-    const int end = band_start(band.band + 1);
-    kernel.inputs = {{"f", Kind::signal, end, kSignalLayout}};
-    graph::SharedSums sums = band_sums(kernel, 0, band.band, [&](int d, int m) { return band.a_hat(m, d); });
-    for (int d = 0; d < band_size(band.band); ++d) kernel.store(band_start(band.band) + d, sums.output(d), 0);
+    kernel.inputs = {{"f", Kind::signal, band_size(band.band), ""}};
+    graph::SharedSums sums = shared_sums(kernel, band.a_hat.transpose(), {0, 0, band_size(band.band)});
+    for (int d = 0; d < band_size(band.band); ++d) kernel.store(d, sums.output(d), 0);
     return graph::count_operations(graph::optimize(kernel)).total().multiplications();
 }
 
@@ -242,9 +320,11 @@ Kernel build_factorize(const LobeSet& lobes) {
     kernel.name = "factorize";
     kernel.summary = "Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.";
     kernel.sources = {std::string(kPaper) + "eq. 7 and the one after it"};
-    kernel.inputs = {{"f", Kind::signal, lobes.order * lobes.order, kSignalLayout}};
-    kernel.output = {"z", Kind::signal, lobes.order * lobes.order, kLobeLayout};
-    build_band_products(kernel, lobes, "d", [&](int l, int d, int m) { return lobes.bands[l].a_hat(m, d); });
+    kernel.inputs = {signal_array(lobes, "f")};
+    kernel.output = weight_array(lobes, "z");
+    for (int l = 0; l < lobes.order; ++l)
+        build_band_product(kernel, lobes, l, lobes.bands[l].a_hat.transpose(), signal_range(0, l),
+                           lobes.weight_start(l), "d");
     return kernel;
 }
 
@@ -253,13 +333,11 @@ Kernel build_expand(const LobeSet& lobes) {
     kernel.name = "expand";
     kernel.summary = "The signal that weighted lobes sum to: f = Y^T z, band by band; undoes factorize.";
     kernel.sources = {std::string(kPaper) + "section 4"};
-    kernel.inputs = {{"z", Kind::signal, lobes.order * lobes.order, kLobeLayout}};
-    kernel.output = {"f", Kind::signal, lobes.order * lobes.order, kSignalLayout};
-    std::vector<exact::Matrix<Real>> y;
-    for (int l = 0; l < lobes.order; ++l) y.push_back(exact::band_matrix<Real>(l, lobes.directions));
-    build_band_products(kernel, lobes, "m", [&](int l, int m, int d) {
-        return abs(y[l](d, m)) < exact::kZeroThreshold ? Real(0) : y[l](d, m);
-    });
+    kernel.inputs = {weight_array(lobes, "z")};
+    kernel.output = signal_array(lobes, "f");
+    for (int l = 0; l < lobes.order; ++l)
+        build_band_product(kernel, lobes, l, expansion(lobes, l).transpose(), weight_range(lobes, 0, l),
+                           band_start(l), "m");
     return kernel;
 }
 
@@ -267,12 +345,14 @@ Kernel build_resample(const LobeSet& lobes) {
     Kernel kernel;
     kernel.name = "resample";
     kernel.summary =
-        "The rotated signal from samples of its bands: element l*l + d of samples is band l of the\n"
+        "The rotated signal from samples of its bands: the element of band l and lobe d is band l of the\n"
         "unrotated signal, f_l(w) = sum_m f_lm y_lm(w), at w = R^T (direction of lobe d).";
     kernel.sources = {std::string(kPaper) + "eq. 11"};
-    kernel.inputs = {{"samples", Kind::signal, lobes.order * lobes.order, kLobeLayout}};
-    kernel.output = {"out", Kind::signal, lobes.order * lobes.order, kSignalLayout};
-    build_band_products(kernel, lobes, "m", [&](int l, int m, int d) { return lobes.bands[l].a_hat(m, d); });
+    kernel.inputs = {weight_array(lobes, "samples")};
+    kernel.output = signal_array(lobes, "out");
+    for (int l = 0; l < lobes.order; ++l)
+        build_band_product(kernel, lobes, l, lobes.bands[l].a_hat, weight_range(lobes, 0, l), band_start(l),
+                           "m");
     return kernel;
 }
 
@@ -301,11 +381,11 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
         "Bands are independent: a NaN stays in its band.";
     kernel.sources = {std::string(kPaper) + "eq. 10"};
     kernel.has_bound = true;
-    kernel.inputs = {rotation_array(), {"f", Kind::signal, lobes.order * lobes.order, kSignalLayout}};
-    kernel.output = {"out", Kind::signal, lobes.order * lobes.order, kSignalLayout};
+    kernel.inputs = {rotation_array(), signal_array(lobes, "f")};
+    kernel.output = signal_array(lobes, "out");
     const Matrix3 given = rotation_rows(kernel);
     kernel.store(0, kernel.input(1, 0), 0);
-    if (lobes.order == 3) {
+    if (lobes.order == 3 && !is_ring(lobes)) {
         // One band to turn: six lobes as a tensor cost less than an orthonormal matrix.
         build_band_1(kernel, given);
         build_band_2_tensor(kernel, given, lobes);
@@ -314,11 +394,11 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
     const Matrix3 rows = orthonormalized(kernel, given);
     build_band_1(kernel, rows);
     std::vector<LobeHarmonics> harmonics;
-    for (int d = 0; d < band_size(lobes.order - 1); ++d) {
+    for (int d = 0; d < static_cast<int>(lobes.directions.size()); ++d) {
         kernel.graph.set_scope(fmt::format("d{}", d));
         harmonics.emplace_back(kernel, rotate_direction(kernel, rows, lobes.directions[d], d), d);
     }
-    for (int l = 2; l < lobes.order; ++l) build_band(kernel, lobes.bands[l], harmonics);
+    for (int l = 2; l < lobes.order; ++l) build_band(kernel, lobes, l, harmonics);
     return kernel;
 }
 

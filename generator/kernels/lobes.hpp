@@ -7,14 +7,27 @@
 
 namespace zonal::kernels {
 
-/// The shared lobes of an order: directions at 50 digits and the exact factorization of every band by them.
+/// The lobes of an order: directions at 50 digits and the exact factorization of every band by some of them.
 struct LobeSet {
     int order = 0;
-    std::vector<exact::Direction<exact::Real>> directions;  ///< 2*order-1, unit
+    std::vector<exact::Direction<exact::Real>> directions;  ///< unit
+    std::vector<std::vector<int>> lobes_of;                 ///< of bands 0 … order-1: which directions
     std::vector<exact::BandFactorization> bands;            ///< 0 … order-1
+
+    /// 2*order-1 directions; band l uses the first 2l+1. Source: section 6 of the paper.
+    static LobeSet shared(int order, const std::vector<exact::Direction<exact::Real>>& directions);
+
+    /// One ring of 2*order-1 lobes that every band uses, all of them: cond_2 at most 10 up to order 20.
+    static LobeSet ring(int order);
+
+    /// Lobes of their own for every band, 2l+1 for band l. Source: section 5.
+    static LobeSet per_band(const std::vector<std::vector<exact::Direction<exact::Real>>>& directions);
+
+    /// Where the weights of band l begin among those of all bands; for l = order, how many there are.
+    int weight_start(int l) const;
 };
 
-/// Multiplications of the band's sparse product Âᵀ f as it is emitted: ±1 and constants of equal size folded.
+/// Multiplications of the band's sparse product Âᵀ f as it is emitted, by 2l+1 lobes.
 int factorization_multiplications(const exact::BandFactorization& band);
 
 /// ẑ = Âᵀ f, per band.

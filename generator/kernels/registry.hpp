@@ -7,8 +7,18 @@
 
 namespace zonal::kernels {
 
-/// Every kernel of an order, optimized, in the order they are emitted; without lobes (null) those that need
-/// none. Adding a method is one line here.
-std::vector<graph::Kernel> build_order(int order, const LobeSet* lobes);
+/// Band 2 is the first whose lobes can be chosen.
+inline constexpr int kSmallestLobeOrder = 3;
+
+/// The searched lobes of an order, as far as there are any.
+struct OrderLobeSets {
+    const LobeSet* shared = nullptr;
+    const LobeSet* per_band = nullptr;  ///< only beside shared ones
+};
+
+/// Every kernel of an order, optimized, in the order they are emitted: those of `rotate`; lobe kernels where
+/// there are lobes, and of per-band lobes those that cost less; and the ring's as variant `stable`. Adding a
+/// method is one line here.
+std::vector<graph::Kernel> build_order(int order, const OrderLobeSets& lobes);
 
 }  // namespace zonal::kernels

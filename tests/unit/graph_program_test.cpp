@@ -217,7 +217,7 @@ void expect_what_the_spacing_says(const Loop& loop) {
 template <class Check>
 void for_each_kernel(Check check) {
     for (const int order : {2, 3, 4, 6, 9, 11}) {
-        for (const Kernel& kernel : kernels::build_order(order, nullptr)) {
+        for (const Kernel& kernel : kernels::build_order(order, {})) {
             SCOPED_TRACE(fmt::format("order {} {}", order, kernel.name));
             check(kernel);
         }

@@ -12,8 +12,8 @@ constexpr int kOrder = 6;
 
 LobeSet committed_lobes() {
     const std::filesystem::path tables = std::filesystem::path(ZONAL_SOURCE_DIR) / "generator/tables";
-    const LobeTable table = read_lobe_table(tables / lobe_table_name(kOrder), kOrder);
-    return {kOrder, table.directions, exact::factorize_order(kOrder, table.directions)};
+    const LobeUse use = LobeUse::order(kOrder);
+    return LobeSet::shared(kOrder, read_lobe_table(tables / use.table_name(), use).directions);
 }
 
 TEST(Factorize, multiplications_of_its_bands_are_those_of_the_kernel) {
