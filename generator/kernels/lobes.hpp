@@ -14,7 +14,7 @@ struct LobeSet {
     std::vector<exact::BandFactorization> bands;            ///< 0 … order-1
 };
 
-/// Multiplications of the band's sparse product Âᵀ f as it is emitted: ±1 and constants of equal size folded.
+/// Multiplications of the band's sparse product Âᵀ f as it is emitted, counted on its graph.
 int factorization_multiplications(const exact::BandFactorization& band);
 
 /// ẑ = Âᵀ f, per band.
