@@ -76,6 +76,10 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
                 unit.sources.push_back(source);
     unit.bounds = order.bounds;
     unit.constants = {{"kHasLobes", order.lobes ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
+    const bool has_per_band = std::ranges::any_of(
+        unit.kernels, [](const graph::Kernel& kernel) { return kernel.variant == "per_band"; });
+    unit.constants.push_back(
+        {"kHasPerBandLobes", has_per_band ? 1 : 0, "1 where lobes of each band's own are here, else 0"});
     const graph::Kernel& prepare = kernel_named(order, "prepare");
     unit.constants.push_back({"kScalars", prepare.output.size, "Values that `prepare` makes"});
     const bool takes_mirrors =

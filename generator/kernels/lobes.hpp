@@ -27,7 +27,7 @@ struct LobeSet {
     int weight_start(int l) const;
 };
 
-/// Multiplications of the band's sparse product Âᵀ f as it is emitted, by 2l+1 lobes.
+/// Multiplications of the band's sparse product Âᵀ f as it is emitted, counted on its graph.
 int factorization_multiplications(const exact::BandFactorization& band);
 
 /// ẑ = Âᵀ f, per band.

@@ -1,5 +1,7 @@
 #include "kernels/registry.hpp"
 
+#include <algorithm>
+
 #include "graph/counts.hpp"
 #include "graph/passes.hpp"
 #include "kernels/rotations.hpp"
@@ -18,7 +20,22 @@ std::vector<Kernel> lobe_kernels(const LobeSet& lobes, const std::string& varian
     return kernels;
 }
 
-int instructions(const Kernel& kernel) { return graph::count_operations(kernel).total().instructions(); }
+int instructions(const std::vector<Kernel>& kernels, const std::string& name) {
+    const auto kernel = std::ranges::find(kernels, name, &Kernel::name);
+    return graph::count_operations(*kernel).total().instructions();
+}
+
+/// Those of lobes of their own for every band, where factorizing or resampling by them costs less than by
+/// shared ones; `rotate_zhf` too if it does. It seldom can: no harmonics are shared between bands.
+std::vector<Kernel> per_band_kernels(const LobeSet& lobes, const std::vector<Kernel>& shared) {
+    std::vector<Kernel> own = lobe_kernels(lobes, "per_band");
+    const auto costs_less = [&](const char* name) {
+        return instructions(own, name) < instructions(shared, name);
+    };
+    if (!costs_less("factorize") && !costs_less("resample")) return {};
+    if (!costs_less("rotate_zhf")) std::erase_if(own, [](const Kernel& k) { return k.name == "rotate_zhf"; });
+    return own;
+}
 
 }  // namespace
 
@@ -31,15 +48,7 @@ std::vector<Kernel> build_order(int order, const OrderLobeSets& lobes) {
         std::vector<Kernel> shared = lobe_kernels(*lobes.shared, "");
         for (Kernel& kernel : shared) kernel.needs_lobes = true;
         append(shared);
-        if (lobes.per_band) {
-            // Where they need fewer operations than shared ones; `lobes` belongs to the others.
-            std::vector<Kernel> own = lobe_kernels(*lobes.per_band, "per_band");
-            std::vector<Kernel> fewer;
-            for (std::size_t k = 0; k < own.size(); ++k)
-                if (own[k].name == "lobes" || instructions(own[k]) < instructions(shared[k]))
-                    fewer.push_back(own[k]);
-            if (fewer.size() > 1) append(fewer);
-        }
+        if (lobes.per_band) append(per_band_kernels(*lobes.per_band, shared));
     }
     if (order >= kSmallestLobeOrder) append(lobe_kernels(LobeSet::ring(order), "stable"));
     return kernels;

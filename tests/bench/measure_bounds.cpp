@@ -33,6 +33,7 @@ struct Options {
     int rotations = 0;
     std::uint64_t seed = 1;
     std::vector<int> orders;
+    std::vector<std::string> kernels;
     std::string out;
 };
 
@@ -138,8 +139,19 @@ std::string rounded_up(double bound) {
     return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
 }
 
+/// The kernels to measure, with `prepare`, which `apply` needs.
+std::vector<graph::Kernel> chosen_kernels(std::vector<graph::Kernel> kernels, const Options& options) {
+    if (options.kernels.empty()) return kernels;
+    std::erase_if(kernels, [&](const graph::Kernel& kernel) {
+        return kernel.name != "prepare" &&
+               std::ranges::find(options.kernels, kernel.full_name()) == options.kernels.end();
+    });
+    return kernels;
+}
+
 nlohmann::ordered_json measure_order(int n, const Options& options) {
-    const OrderKernels order = build_order_kernels(n, {});
+    OrderKernels order = build_order_kernels(n, {});
+    order.kernels = chosen_kernels(std::move(order.kernels), options);
     const auto excess = measure_excess(order, options);
     const auto single = measure_bounds<float>(order, excess, options);
     const auto twice = measure_bounds<double>(order, excess, options);
@@ -158,17 +170,28 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
     return entries;
 }
 
+/// What the file says of other orders and other kernels.
+std::map<int, nlohmann::ordered_json> kept_bounds(const Options& options, const std::vector<int>& orders) {
+    std::ifstream stream(options.out);
+    const auto file = nlohmann::ordered_json::parse(stream);
+    std::map<int, nlohmann::ordered_json> kept;
+    for (const auto& entry : file.at("bounds")) {
+        const int order = entry.at("order").get<int>();
+        const auto kernel = entry.at("kernel").get<std::string>();
+        const bool is_measured =
+            std::ranges::find(orders, order) != orders.end() &&
+            (options.kernels.empty() || std::ranges::find(options.kernels, kernel) != options.kernels.end());
+        if (!is_measured) kept[order].push_back(entry);
+    }
+    return kept;
+}
+
 void run(const Options& options) {
     std::vector<int> orders = options.orders;
     std::map<int, nlohmann::ordered_json> measured;
-    if (orders.empty()) {
+    if (orders.empty())
         for (int n = kLargestOrder; n >= kSmallestOrder; --n) orders.push_back(n);
-    } else {
-        // The others stay as they are.
-        std::ifstream stream(options.out);
-        const auto file = nlohmann::ordered_json::parse(stream);
-        for (const auto& entry : file.at("bounds")) measured[entry.at("order").get<int>()].push_back(entry);
-    }
+    if (!options.orders.empty() || !options.kernels.empty()) measured = kept_bounds(options, orders);
     std::mutex mutex;
     tbb::parallel_for_each(orders, [&](int n) {
         Options of_order = options;
@@ -176,7 +199,7 @@ void run(const Options& options) {
         if (options.rotations == 0) of_order.rotations = n <= 2 ? 10000 : n <= 6 ? 500 : n <= 10 ? 150 : 40;
         const nlohmann::ordered_json entries = measure_order(n, of_order);
         const std::lock_guard lock(mutex);
-        measured[n] = entries;
+        for (const auto& entry : entries) measured[n].push_back(entry);
         fmt::print("{}\n", entries.dump());
         std::fflush(stdout);
     });
@@ -202,6 +225,7 @@ int main(int argc, char** argv) {
         "random rotations of each order and type (default: 10000 at order 2, 500 to 6, 150 to 10, 40 above)");
     app.add_option("--orders", options.orders, "to measure anew in the file that --out names (default: all)")
         ->check(CLI::Range(zonal::kSmallestOrder, zonal::kLargestOrder));
+    app.add_option("--kernels", options.kernels, "to measure anew, as banners call them (default: all)");
     app.add_option("--seed", options.seed)->capture_default_str();
     app.add_option("--out", options.out, "the file to write")->required();
     CLI11_PARSE(app, argc, argv);
