@@ -81,7 +81,7 @@ Json to_json(const OrderKernels& order) {
     }
     json["methods"] = methods_to_json(order.order);
     Json kernels;
-    for (const graph::Kernel& kernel : order.kernels) kernels[kernel.name] = to_json(kernel);
+    for (const graph::Kernel& kernel : order.kernels) kernels[kernel.full_name()] = to_json(kernel);
     json["kernels"] = kernels;
     return json;
 }

@@ -264,9 +264,14 @@ std::string print_constants(const Unit& unit) {
     for (const Constant& constant : unit.constants)
         text += fmt::format("\n/// {}.\ninline constexpr int {} = {};\n", constant.meaning, constant.name,
                             constant.value);
+    return text;
+}
+
+std::string print_bounds(const Unit& unit, const std::string& variant) {
+    std::string text;
     for (const Kernel& kernel : unit.kernels) {
-        const auto bound = unit.bounds.find(kernel.name);
-        if (bound == unit.bounds.end()) continue;
+        const auto bound = unit.bounds.find(kernel.full_name());
+        if (bound == unit.bounds.end() || kernel.variant != variant) continue;
         const std::string name = pascal_case(kernel.name);
         text += fmt::format("\n/// Largest relative error of {} for {} where R is orthonormal,\n",
                             kernel.name, domain_text(kernel));
@@ -277,6 +282,23 @@ std::string print_constants(const Unit& unit) {
         text += fmt::format("inline constexpr double k{}Excess = {};\n", name, bound->second.excess_text);
     }
     return text;
+}
+
+/// The bounds and kernels of one variant.
+std::string print_variant(const Unit& unit, const std::string& variant) {
+    std::string text = print_bounds(unit, variant);
+    for (const Kernel& kernel : unit.kernels)
+        if (kernel.variant == variant) text += print_kernel(kernel);
+    return text;
+}
+
+/// Every variant that occurs, in the order of the kernels.
+std::vector<std::string> variants_of(const Unit& unit) {
+    std::vector<std::string> variants;
+    for (const Kernel& kernel : unit.kernels)
+        if (std::find(variants.begin(), variants.end(), kernel.variant) == variants.end())
+            variants.push_back(kernel.variant);
+    return variants;
 }
 
 }  // namespace
@@ -291,7 +313,12 @@ std::string print_cpp(const Unit& unit) {
     text += kPrelude;
     if (has_tables) text += kTableLoops;
     text += print_constants(unit);
-    for (const Kernel& kernel : unit.kernels) text += print_kernel(kernel);
+    for (const std::string& variant : variants_of(unit)) {
+        const std::string body = print_variant(unit, variant);
+        text += variant.empty()
+                    ? body
+                    : fmt::format("\nnamespace {0} {{\n{1}\n}}  // namespace {0}\n", variant, body);
+    }
     return text + fmt::format("\n}}  // namespace zonal::{}\n", unit.name);
 }
 

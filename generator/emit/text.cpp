@@ -15,12 +15,12 @@ std::string counts_text(const graph::Counts& c) {
 }
 
 void append_bound(std::vector<std::string>& lines, const Unit& unit, const graph::Kernel& kernel) {
-    const auto bound = unit.bounds.find(kernel.name);
+    const auto bound = unit.bounds.find(kernel.full_name());
     if (bound == unit.bounds.end()) {
-        lines.push_back(fmt::format("{} none published: see generator/tables/README.md", kernel.name));
+        lines.push_back(fmt::format("{} none published: see generator/tables/README.md", kernel.full_name()));
         return;
     }
-    lines.push_back(fmt::format("{} relative error {} (float), {} (double), for {};", kernel.name,
+    lines.push_back(fmt::format("{} relative error {} (float), {} (double), for {};", kernel.full_name(),
                                 bound->second.float_text, bound->second.double_text, domain_text(kernel)));
     lines.push_back(fmt::format("  excess {}", bound->second.excess_text));
 }
@@ -37,7 +37,7 @@ std::vector<std::string> banner_lines(const Unit& unit) {
     std::vector<std::string> costs, bounds;
     for (const graph::Kernel& kernel : unit.kernels) {
         const graph::Cost cost = graph::count_operations(kernel);
-        costs.push_back(fmt::format("{} {};", kernel.name, counts_text(cost.total())));
+        costs.push_back(fmt::format("{} {};", kernel.full_name(), counts_text(cost.total())));
         costs.push_back(fmt::format("  per extra vector {}", counts_text(cost.per_vector)));
         if (kernel.has_bound) append_bound(bounds, unit, kernel);
     }

@@ -26,6 +26,7 @@ struct Store {
 /// One function to emit: its graph, its arguments and what its comment says.
 struct Kernel {
     std::string name;
+    std::string variant;               ///< the namespace inside the unit's own that holds it; empty: none
     std::string summary;               ///< what it computes, one or two lines
     std::vector<std::string> sources;  ///< author, year, equation; one a method
     std::vector<Array> inputs;
@@ -37,6 +38,9 @@ struct Kernel {
     std::string for_channels;
     bool needs_lobes = false;  ///< built from a lobe table
     bool has_bound = false;    ///< an error bound is published for it
+
+    /// By which banners, counts and bounds call it: "rotate_zhf", "stable::rotate_zhf".
+    std::string full_name() const { return variant.empty() ? name : variant + "::" + name; }
 
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
     void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }

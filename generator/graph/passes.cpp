@@ -111,10 +111,14 @@ Kernel absorb_negations(const Kernel& kernel) {
     Kernel result = kernel;
     Graph& graph = result.graph;
     const auto users = users_of(kernel.graph);
+    std::vector<bool> is_output(kernel.graph.size(), false);
+    for (const Store& store : kernel.stores) is_output[store.value] = true;
     for (Store& store : result.stores) {
         const Node negation = graph[store.value];
-        if (negation.op != Op::negate || users[negation.operands[0]].size() > 1) continue;
-        const Node inner = graph[negation.operands[0]];
+        if (negation.op != Op::negate) continue;
+        const Id negated = negation.operands[0];
+        if (users[negated].size() > 1 || is_output[negated]) continue;
+        const Node inner = graph[negated];
         Id id = -1;
         if (inner.op == Op::multiply && graph[inner.operands[0]].op == Op::constant) {
             id = graph.signed_multiply(graph.constant(-graph[inner.operands[0]].value), inner.operands[1]);

@@ -1,34 +1,26 @@
 #include "graph/sum.hpp"
 
-#include <algorithm>
+#include "graph/sizes.hpp"
 
 namespace zonal::graph {
 
 namespace {
 
-/// Factors that agree to this relative difference are one constant; they carry 50 digits less the condition.
-const Number kSameConstant{"1e-35"};
-
-bool is_same_size(const Number& a, const Number& b) { return abs(abs(a) - abs(b)) <= kSameConstant * abs(a); }
-
+/// Terms of one |factor|, and only their signs.
 struct Group {
-    Number size;              // |factor|, exactly 1 where it is ±1
-    std::vector<Term> terms;  // factor: the sign
+    Number size;
+    std::vector<Term> terms;
 };
 
+/// ±1 come first: they start the chain, and every other group can then be fused into it.
 std::vector<Group> group_by_size(const std::vector<Term>& terms) {
-    std::vector<Group> groups;
+    Sizes sizes;
+    std::vector<Group> groups{{Number(1), {}}};
     for (const Term& term : terms) {
         if (term.factor == 0) continue;
-        const Term signed_term{term.factor < 0 ? Number(-1) : Number(1), term.value};
-        const auto group = std::find_if(groups.begin(), groups.end(),
-                                        [&](const Group& g) { return is_same_size(g.size, term.factor); });
-        if (group != groups.end()) {
-            group->terms.push_back(signed_term);
-        } else {
-            const bool is_one = is_same_size(Number(1), term.factor);
-            groups.push_back({is_one ? Number(1) : Number(abs(term.factor)), {signed_term}});
-        }
+        const int number = sizes.number_of(term.factor);
+        if (number == static_cast<int>(groups.size())) groups.push_back({sizes[number], {}});
+        groups[number].terms.push_back({term.factor < 0 ? Number(-1) : Number(1), term.value});
     }
     return groups;
 }
@@ -36,11 +28,8 @@ std::vector<Group> group_by_size(const std::vector<Term>& terms) {
 }  // namespace
 
 Value linear_combination(Graph& graph, const std::vector<Term>& terms) {
-    // Groups of ±1 come first: they start the chain, and every other group can then be fused into it.
-    std::vector<Group> groups = group_by_size(terms);
-    std::stable_partition(groups.begin(), groups.end(), [](const Group& g) { return g.size == 1; });
     Value sum{&graph, graph.constant(0)};
-    for (const Group& group : groups) {
+    for (const Group& group : group_by_size(terms)) {
         if (group.size == 1) {
             for (const Term& term : group.terms) sum = sum + term.factor * term.value;
             continue;
@@ -52,17 +41,6 @@ Value linear_combination(Graph& graph, const std::vector<Term>& terms) {
         sum = sum + (sign * group.size) * inner;
     }
     return sum;
-}
-
-int multiplications(const std::vector<Number>& factors) {
-    std::vector<Number> sizes;
-    for (const Number& factor : factors) {
-        if (factor == 0 || is_same_size(Number(1), factor)) continue;
-        if (std::none_of(sizes.begin(), sizes.end(),
-                         [&](const Number& s) { return is_same_size(s, factor); }))
-            sizes.push_back(factor);
-    }
-    return static_cast<int>(sizes.size());
 }
 
 }  // namespace zonal::graph

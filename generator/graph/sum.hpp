@@ -16,7 +16,4 @@ struct Term {
 /// of instructions after fusing is the number of nonzero terms either way. Precondition: `terms` not empty.
 Value linear_combination(Graph& graph, const std::vector<Term>& terms);
 
-/// Multiplications of that sum, fused or not.
-int multiplications(const std::vector<Number>& factors);
-
 }  // namespace zonal::graph

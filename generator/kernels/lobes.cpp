@@ -10,9 +10,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "exact/legendre.hpp"
 #include "exact/spherical_harmonics.hpp"
+#include "graph/counts.hpp"
+#include "graph/passes.hpp"
+#include "graph/shared_sums.hpp"
+#include "graph/sizes.hpp"
 #include "graph/sum.hpp"
 #include "kernels/lobe_tensor.hpp"
 #include "kernels/rotation_scalars.hpp"
@@ -33,16 +38,25 @@ const char* const kLobeLayout = "band l at l*l, lobe d at l*l + d, d = 0 .. 2l i
 int band_start(int l) { return l * l; }
 int band_size(int l) { return 2 * l + 1; }
 
-/// out_i = sum_k weight(band, i, k) * in_k within every band.
+/// out_i = sum_k weight(i, k) * in_k within a band, and what the outputs share.
+template <class Weight>
+graph::SharedSums band_sums(Kernel& kernel, int array, int l, Weight weight) {
+    std::vector<std::vector<Real>> weights(band_size(l));
+    std::vector<Value> inputs;
+    for (int k = 0; k < band_size(l); ++k) inputs.push_back(kernel.input(array, band_start(l) + k));
+    for (int i = 0; i < band_size(l); ++i)
+        for (int k = 0; k < band_size(l); ++k) weights[i].push_back(weight(i, k));
+    return {kernel.graph, weights, std::move(inputs)};
+}
+
+/// out_i = sum_k weight(l, i, k) * in_k within every band.
 template <class Weight>
 void build_band_products(Kernel& kernel, const LobeSet& lobes, const char* result_name, Weight weight) {
     for (int l = 0; l < lobes.order; ++l) {
+        graph::SharedSums sums = band_sums(kernel, 0, l, [&](int i, int k) { return weight(l, i, k); });
         for (int i = 0; i < band_size(l); ++i) {
             kernel.graph.set_scope(fmt::format("b{}_{}{}", l, result_name, i));
-            std::vector<graph::Term> terms;
-            for (int k = 0; k < band_size(l); ++k)
-                terms.push_back({weight(l, i, k), kernel.input(0, band_start(l) + k)});
-            kernel.store(band_start(l) + i, linear_combination(kernel.graph, terms), l);
+            kernel.store(band_start(l) + i, sums.output(i), l);
         }
     }
 }
@@ -151,36 +165,26 @@ class LobeHarmonics {
     std::map<std::pair<int, int>, Value> legendre_;
 };
 
-/// Multiplications of (Â / scale)ᵀ f.
-int multiplications_at_scale(const exact::BandFactorization& band, const Real& scale) {
-    int multiplications = 0;
-    for (int d = 0; d < band_size(band.band); ++d) {
-        std::vector<Real> column;
-        for (int m = 0; m < band_size(band.band); ++m) column.push_back(band.a_hat(m, d) / scale);
-        multiplications += graph::multiplications(column);
-    }
-    return multiplications;
-}
-
 /// A common factor taken out of a band's weights ẑ and put into the constants its outputs are multiplied by
-/// anyway: the one that leaves the fewest multiplications.
+/// anyway: the one that leaves the fewest factors other than ±1, those of equal size in a column counted
+/// once.
 Real cheapest_weight_scale(const exact::BandFactorization& band) {
     const int l = band.band;
-    std::vector<Real> candidates{Real(1)};
-    for (int m = 0; m <= l; ++m) candidates.push_back(1 / exact::basis_scale(l, m));
-    for (const Real& entry : band.a_hat.reshaped())
-        if (entry != 0) candidates.push_back(abs(entry));
-    const auto cost = [&](const Real& scale) {
-        int multiplications = multiplications_at_scale(band, scale);
-        for (int m = -l; m <= l; ++m)
-            multiplications += graph::multiplications({exact::basis_scale(l, m) * scale});
-        return multiplications;
+    graph::Sizes scales;
+    std::vector<int> saved(1, 0);  // by scale: columns and outputs that it turns into ±1
+    const auto count = [&](const std::set<int>& numbers) {
+        saved.resize(scales.count(), 0);
+        for (const int number : numbers) ++saved[number];
     };
-    // The first of equally cheap ones: an order that does not depend on a sort.
-    Real best = candidates.front();
-    for (const Real& candidate : candidates)
-        if (cost(candidate) < cost(best)) best = candidate;
-    return best;
+    for (int m = -l; m <= l; ++m) count({scales.number_of(1 / exact::basis_scale(l, m))});
+    for (int d = 0; d < band_size(l); ++d) {
+        std::set<int> numbers;
+        for (const Real& entry : band.a_hat.col(d))
+            if (entry != 0) numbers.insert(scales.number_of(entry));
+        count(numbers);
+    }
+    // The first of equally cheap ones.
+    return scales[std::max_element(saved.begin(), saved.end()) - saved.begin()];
 }
 
 /// Band 1 is a vector in space (y, z, x): the paper turns it directly ("optimal linear lobe").
@@ -198,13 +202,12 @@ void build_band_1(Kernel& kernel, const Matrix3& rows) {
 void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vector<LobeHarmonics>& harmonics) {
     const int l = band.band;
     const Real weight_scale = cheapest_weight_scale(band);
+    graph::SharedSums shared =
+        band_sums(kernel, 1, l, [&](int d, int m) -> Real { return band.a_hat(m, d) / weight_scale; });
     std::vector<Value> weights, sums(band_size(l), Value{&kernel.graph, kernel.graph.constant(0)});
     for (int d = 0; d < band_size(l); ++d) {
         kernel.graph.set_scope(fmt::format("b{}_d{}", l, d));
-        std::vector<graph::Term> terms;
-        for (int m = 0; m < band_size(l); ++m)
-            terms.push_back({band.a_hat(m, d) / weight_scale, kernel.input(1, band_start(l) + m)});
-        weights.push_back(linear_combination(kernel.graph, terms));
+        weights.push_back(shared.output(d));
         kernel.graph.set_name(weights.back().id, fmt::format("b{}_d{}", l, d));
     }
     for (int d = 0; d < band_size(l); ++d) {
@@ -226,7 +229,12 @@ void build_band(Kernel& kernel, const exact::BandFactorization& band, std::vecto
 }  // namespace
 
 int factorization_multiplications(const exact::BandFactorization& band) {
-    return multiplications_at_scale(band, Real(1));
+    Kernel kernel;
+    const int end = band_start(band.band + 1);
+    kernel.inputs = {{"f", Kind::signal, end, kSignalLayout}};
+    graph::SharedSums sums = band_sums(kernel, 0, band.band, [&](int d, int m) { return band.a_hat(m, d); });
+    for (int d = 0; d < band_size(band.band); ++d) kernel.store(band_start(band.band) + d, sums.output(d), 0);
+    return graph::count_operations(graph::optimize(kernel)).total().multiplications();
 }
 
 Kernel build_factorize(const LobeSet& lobes) {

@@ -148,12 +148,12 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
         if (!kernel.has_bound) continue;
         const std::string table =
             kernel.needs_lobes ? order.lobes->table.sha256.substr(0, kHashDigits) : std::string{};
-        entries.push_back({{"kernel", kernel.name},
+        entries.push_back({{"kernel", kernel.full_name()},
                            {"order", n},
                            {"table", table},
-                           {"float", rounded_up(single.at(kernel.name))},
-                           {"double", rounded_up(twice.at(kernel.name))},
-                           {"excess", fmt::format("{:.2f}", excess.at(kernel.name))}});
+                           {"float", rounded_up(single.at(kernel.full_name()))},
+                           {"double", rounded_up(twice.at(kernel.full_name()))},
+                           {"excess", fmt::format("{:.2f}", excess.at(kernel.full_name()))}});
     }
     return entries;
 }

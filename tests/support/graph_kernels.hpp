@@ -73,8 +73,8 @@ std::vector<accuracy::Contestant<T>> graph_contestants(int order, const std::vec
     for (const graph::Kernel& kernel : kernels) {
         if (!kernel.has_bound) continue;
         accuracy::Contestant<T> contestant;
-        contestant.name = kernel.name;
-        if (excess.contains(kernel.name)) contestant.excess = excess.at(kernel.name);
+        contestant.name = kernel.full_name();
+        if (excess.contains(contestant.name)) contestant.excess = excess.at(contestant.name);
         if (kernel.name == "apply") {
             // Its rotation scalars are made by `prepare`: the whole kernel is the two in a row.
             const auto prepare = std::make_shared<graph::Evaluator<T>>(*std::find_if(

@@ -14,12 +14,12 @@
 //             per extra vector 8 mul 0 add 26 fma 0 other
 //           blocks 43 mul 16 add 26 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-//           factorize 9 mul 6 add 1 fma 0 other;
-//             per extra vector 9 mul 6 add 1 fma 0 other
-//           expand 9 mul 10 add 1 fma 0 other;
-//             per extra vector 9 mul 10 add 1 fma 0 other
-//           resample 9 mul 6 add 1 fma 0 other;
-//             per extra vector 9 mul 6 add 1 fma 0 other
+//           factorize 7 mul 2 add 5 fma 0 other;
+//             per extra vector 7 mul 2 add 5 fma 0 other
+//           expand 5 mul 2 add 9 fma 0 other;
+//             per extra vector 5 mul 2 add 9 fma 0 other
+//           resample 7 mul 2 add 5 fma 0 other;
+//             per extra vector 7 mul 2 add 5 fma 0 other
 //           lobes 9 mul 15 add 0 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           rotate_zhf 32 mul 23 add 40 fma 0 other;
@@ -821,26 +821,24 @@ template <class V, class T = typename scalar_of<V>::type>
 void factorize(const V* f, V* z) {
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
     z[0] = b0_d0_1;
-    const V b1_d0_1 = f[2] + f[3];
-    const V b1_d0_2 = T(1.7724538509055161) * b1_d0_1;
-    const V b1_d1_1 = f[1] - f[3];
-    const V b1_d1_2 = T(1.7724538509055161) * b1_d1_1;
+    const V b1_d0_1 = T(1.7724538509055161) * f[3];
+    const V b1_d0_2 = fma(T(1.7724538509055161), f[2], b1_d0_1);
     const V b1_d2_1 = f[1] - f[2];
+    const V b1_d1_1 = fma(T(1.7724538509055161), f[1], -b1_d0_1);
     const V b1_d2_2 = T(-1.7724538509055161) * b1_d2_1;
     z[1] = b1_d0_2;
-    z[2] = b1_d1_2;
+    z[2] = b1_d1_1;
     z[3] = b1_d2_2;
-    const V b2_d0_1 = f[4] + f[5];
-    const V b2_d0_2 = T(1.3729368492956535) * b2_d0_1;
-    const V b2_d1_1 = f[5] - f[7];
-    const V b2_d1_2 = T(1.3729368492956535) * b2_d1_1;
+    const V b2_d0_1 = T(1.3729368492956535) * f[5];
+    const V b2_d0_2 = fma(T(1.3729368492956535), f[4], b2_d0_1);
+    const V b2_d1_1 = fma(T(-1.3729368492956535), f[7], b2_d0_1);
     const V b2_d2_1 = f[4] - f[7];
     const V b2_d2_2 = T(1.3729368492956535) * b2_d2_1;
     const V b2_d3_1 = T(0.91529123286376901) * f[8];
     const V b2_d3_2 = fma(T(1.5853309190424043), f[6], -b2_d3_1);
     const V b2_d4_1 = T(-1.830582465727538) * f[8];
     z[4] = b2_d0_2;
-    z[5] = b2_d1_2;
+    z[5] = b2_d1_1;
     z[6] = b2_d2_2;
     z[7] = b2_d3_2;
     z[8] = b2_d4_1;
@@ -856,30 +854,26 @@ template <class V, class T = typename scalar_of<V>::type>
 void expand(const V* z, V* f) {
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
-    const V b1_m0_1 = z[1] + z[2];
-    const V b1_m0_2 = z[3] - b1_m0_1;
-    const V b1_m1_1 = z[3] + b1_m0_1;
-    const V b1_m1_2 = T(0.28209479177387814) * b1_m1_1;
-    const V b1_m2_1 = z[1] - z[2];
-    const V b1_m2_2 = z[3] - b1_m2_1;
-    const V b1_m0_3 = T(-0.28209479177387814) * b1_m0_2;
-    const V b1_m2_3 = T(-0.28209479177387814) * b1_m2_2;
+    const V b1_m0_1 = T(0.28209479177387814) * z[2];
+    const V b1_m0_2 = fma(T(0.28209479177387814), z[1], b1_m0_1);
+    const V b1_m0_3 = fma(T(-0.28209479177387814), z[3], b1_m0_2);
+    const V b1_m1_1 = fma(T(0.28209479177387814), z[3], b1_m0_2);
+    const V b1_m2_1 = z[1] - z[3];
+    const V b1_m2_2 = fma(T(0.28209479177387814), b1_m2_1, -b1_m0_1);
     f[1] = b1_m0_3;
-    f[2] = b1_m1_2;
-    f[3] = b1_m2_3;
-    const V b2_m0_1 = z[4] - z[5];
-    const V b2_m0_2 = z[6] + b2_m0_1;
-    const V b2_m0_3 = T(0.36418281019735971) * b2_m0_2;
-    const V b2_m1_1 = z[4] + z[5];
-    const V b2_m1_2 = z[6] - b2_m1_1;
+    f[2] = b1_m1_1;
+    f[3] = b1_m2_2;
+    const V b2_m0_1 = T(0.36418281019735971) * z[5];
+    const V b2_m0_2 = fma(T(-0.36418281019735971), z[6], b2_m0_1);
+    const V b2_m1_1 = fma(T(0.36418281019735971), z[4], b2_m0_2);
     const V b2_m2_1 = T(0.31539156525251999) * z[8];
     const V b2_m2_2 = fma(T(0.63078313050503998), z[7], -b2_m2_1);
-    const V b2_m3_1 = z[6] - b2_m0_1;
-    const V b2_m1_3 = T(-0.36418281019735971) * b2_m1_2;
-    const V b2_m3_2 = T(-0.36418281019735971) * b2_m3_1;
+    const V b2_m3_1 = z[4] - z[6];
+    const V b2_m0_3 = fma(T(0.36418281019735971), z[4], -b2_m0_2);
+    const V b2_m3_2 = fma(T(0.36418281019735971), b2_m3_1, -b2_m0_1);
     const V b2_m4_1 = T(-0.54627421529603959) * z[8];
     f[4] = b2_m0_3;
-    f[5] = b2_m1_3;
+    f[5] = b2_m1_1;
     f[6] = b2_m2_2;
     f[7] = b2_m3_2;
     f[8] = b2_m4_1;
@@ -896,26 +890,24 @@ template <class V, class T = typename scalar_of<V>::type>
 void resample(const V* samples, V* out) {
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
     out[0] = b0_m0_1;
-    const V b1_m0_1 = samples[2] - samples[3];
-    const V b1_m0_2 = T(1.7724538509055161) * b1_m0_1;
-    const V b1_m1_1 = samples[1] + samples[3];
-    const V b1_m1_2 = T(1.7724538509055161) * b1_m1_1;
+    const V b1_m0_1 = T(1.7724538509055161) * samples[3];
+    const V b1_m1_1 = fma(T(1.7724538509055161), samples[1], b1_m0_1);
     const V b1_m2_1 = samples[1] - samples[2];
     const V b1_m2_2 = T(1.7724538509055161) * b1_m2_1;
+    const V b1_m0_2 = fma(T(1.7724538509055161), samples[2], -b1_m0_1);
     out[1] = b1_m0_2;
-    out[2] = b1_m1_2;
+    out[2] = b1_m1_1;
     out[3] = b1_m2_2;
-    const V b2_m0_1 = samples[4] + samples[6];
-    const V b2_m0_2 = T(1.3729368492956535) * b2_m0_1;
-    const V b2_m1_1 = samples[4] + samples[5];
-    const V b2_m1_2 = T(1.3729368492956535) * b2_m1_1;
+    const V b2_m0_1 = T(1.3729368492956535) * samples[4];
+    const V b2_m0_2 = fma(T(1.3729368492956535), samples[6], b2_m0_1);
+    const V b2_m1_1 = fma(T(1.3729368492956535), samples[5], b2_m0_1);
     const V b2_m2_1 = T(1.5853309190424043) * samples[7];
     const V b2_m3_1 = samples[5] + samples[6];
     const V b2_m4_1 = T(1.830582465727538) * samples[8];
     const V b2_m3_2 = T(-1.3729368492956535) * b2_m3_1;
     const V b2_m4_2 = fma(T(-0.91529123286376901), samples[7], -b2_m4_1);
     out[4] = b2_m0_2;
-    out[5] = b2_m1_2;
+    out[5] = b2_m1_1;
     out[6] = b2_m2_1;
     out[7] = b2_m3_2;
     out[8] = b2_m4_2;
