@@ -1,6 +1,7 @@
 #include "paper/sheets.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -19,9 +20,9 @@ std::string percent(const Json& value) { return number(value, "{:.1f}"); }
 
 std::string list(const Json& values) {
     if (values.is_null()) return kMissing;
-    std::string text;
-    for (const Json& value : values) text += (text.empty() ? "" : " ") + count(value);
-    return text;
+    std::vector<std::string> texts;
+    for (const Json& value : values) texts.push_back(count(value));
+    return fmt::format("{}", fmt::join(texts, " "));
 }
 
 Sheet lobes_sheet(const Json& rows) {
@@ -62,7 +63,8 @@ Sheet our_sheet(const Json& rows) {
     Sheet sheet{
         "Table II: multiplications, zonal's",
         "sparse: nonzeros of bands >= 2, against the paper's; the kernels as emitted, mul + fma, set-up "
-        "included: rotate_zhf against the paper's CPU row, rotate against its least row",
+        "included: rotate_zhf against the paper's CPU row, rotate against its least row (whose x-rotations "
+        "are dense from N = 15 on)",
         {{"N", "sparse", "ratio", "factorize", "rotate_zhf", "ratio", "rotate", "ratio"}}};
     for (const Json& row : rows) {
         const Json &ours = row["ours"], &ratio = row["ratio"];
