@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "apps/emit_command.hpp"
+#include "apps/paper_command.hpp"
 #include "apps/search_command.hpp"
 #include "apps/stats_command.hpp"
 
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
     zonal::add_search_command(app);
     zonal::add_emit_command(app);
     zonal::add_stats_command(app);
+    zonal::add_paper_command(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,63 @@
+#include "apps/paper_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "output_file.hpp"
+#include "paper/comparison.hpp"
+#include "paper/sheets.hpp"
+#include "tables_folder.hpp"
+
+namespace zonal {
+namespace {
+
+struct Options {
+    bool as_json = false;
+    std::string html;
+    int sets = 1000;
+    std::uint64_t seed = 1;
+};
+
+/// Fails before half a minute's work, not after it.
+void check_is_writable(const std::filesystem::path& path) {
+    const std::filesystem::path probe = path.string() + ".probe";
+    write_file_atomically(probe, "");
+    std::filesystem::remove(probe);
+}
+
+void run(const Options& options) {
+    if (!options.html.empty()) check_is_writable(options.html);
+    const bool is_watched = isatty(STDERR_FILENO) != 0;
+    const auto show = [&](const std::string& step) {
+        if (is_watched) fmt::print(stderr, "\r\033[K{}", step);
+    };
+    const paper::Json comparison = paper::compare(tables_folder(), options.sets, options.seed, show);
+    show("");
+    if (!options.html.empty()) write_file_atomically(options.html, paper::page_of(comparison));
+    if (options.as_json)
+        fmt::print("{}\n", comparison.dump(2));
+    else
+        fmt::print("{}", paper::text_of(paper::sheets_of(comparison)));
+}
+
+}  // namespace
+
+void add_paper_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "paper", "this project's numbers beside the paper's Tables I and II, Figure 3 and eq. 8");
+    const auto options = std::make_shared<Options>();
+    command->add_flag("--json", options->as_json, "print JSON");
+    command->add_option("--html", options->html, "page to write as well");
+    command->add_option("--sets", options->sets, "random lobe sets of an order; fewer above order 10")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--seed", options->seed, "of the random sets and of the starts of eq. 8")
+        ->capture_default_str();
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace zonal
