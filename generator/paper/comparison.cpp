@@ -47,8 +47,7 @@ Json paper_multiplications(const published::Multiplications& row) {
 Json our_multiplications(const std::filesystem::path& tables, int order) {
     Json ours{{"sparse", nullptr}, {"factorize", nullptr}, {"rotate_zhf", nullptr}};
     if (const auto table = find_table(tables, LobeUse::order(order))) {
-        const kernels::LobeSet lobes{order, table->directions,
-                                     exact::factorize_order(order, table->directions)};
+        const auto lobes = kernels::LobeSet::shared(order, table->directions);
         ours["sparse"] = table->nonzeros;
         ours["factorize"] = multiplications_of(graph::optimize(kernels::build_factorize(lobes)));
         ours["rotate_zhf"] = multiplications_of(graph::optimize(kernels::build_rotate_zhf(lobes)));

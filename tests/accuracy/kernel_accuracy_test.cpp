@@ -61,8 +61,11 @@ ZONAL_FOR_EACH_ORDER(ZONAL_ACCURACY_TESTS)
 
 template <int N, class T>
 std::vector<accuracy::Contestant<T>> lobe_kernels() {
-    return {{"rotate_zhf", [](const T* R, const T* f, T* out) { LobeOrder<N>::rotate_zhf(R, f, out); },
-             banner::bound(N, "rotate_zhf").excess}};
+    return {
+        {"rotate_zhf", [](const T* R, const T* f, T* out) { LobeOrder<N>::rotate_zhf(R, f, out); },
+         banner::bound(N, "rotate_zhf").excess},
+        {"stable::rotate_zhf", [](const T* R, const T* f, T* out) { StableOrder<N>::rotate_zhf(R, f, out); },
+         banner::bound(N, "stable::rotate_zhf").excess}};
 }
 
 #define ZONAL_LOBE_ACCURACY_TESTS(N)                                      \
