@@ -114,6 +114,23 @@ Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direc
     return turned;
 }
 
+/// From this order on turned lobes are brought back to length 1. Of what rounding does to a direction its
+/// length costs nearly all: harmonics are polynomials that are harmonic on the sphere only, and weights of
+/// opposite signs amplify what they lose. At order 8 the error of `rotate_zhf` in float so halves, for 5 % more
+/// instructions; below, it is small anyway.
+constexpr int kSmallestOrderOfUnitLobes = 7;
+
+/// One Newton step: v + v (1 - v.v) / 2.
+Vector3 with_unit_length(const Vector3& v) {
+    const Value along_z = v[2] * v[2] + Real(-1);
+    const Value along_yz = v[1] * v[1] + along_z;
+    const Value excess = v[0] * v[0] + along_yz;
+    const Value correction = Real(-0.5) * excess;
+    Vector3 unit;
+    for (int i = 0; i < 3; ++i) unit[i] = v[i] + correction * v[i];
+    return unit;
+}
+
 /// The spherical harmonics of one turned lobe without their constant factors, made when first asked for:
 /// y_l^m = basis_scale(l, m) * q_l^|m|(z) * {C_m, S_m}(x, y).
 class LobeHarmonics {
@@ -396,7 +413,9 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
     std::vector<LobeHarmonics> harmonics;
     for (int d = 0; d < static_cast<int>(lobes.directions.size()); ++d) {
         kernel.graph.set_scope(fmt::format("d{}", d));
-        harmonics.emplace_back(kernel, rotate_direction(kernel, rows, lobes.directions[d], d), d);
+        Vector3 turned = rotate_direction(kernel, rows, lobes.directions[d], d);
+        if (lobes.order >= kSmallestOrderOfUnitLobes) turned = with_unit_length(turned);
+        harmonics.emplace_back(kernel, turned, d);
     }
     for (int l = 2; l < lobes.order; ++l) build_band(kernel, lobes, l, harmonics);
     return kernel;
