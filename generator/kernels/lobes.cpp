@@ -116,8 +116,8 @@ Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direc
 
 /// From this order on turned lobes are brought back to length 1. Of what rounding does to a direction its
 /// length costs nearly all: harmonics are polynomials that are harmonic on the sphere only, and weights of
-/// opposite signs amplify what they lose. At order 8 the error of `rotate_zhf` in float so halves, for 5 % more
-/// instructions; below, it is small anyway.
+/// opposite signs amplify what they lose. At order 8 the error of `rotate_zhf` in float so halves, for 5 %
+/// more instructions; below, it is small anyway.
 constexpr int kSmallestOrderOfUnitLobes = 7;
 
 /// One Newton step: v + v (1 - v.v) / 2.

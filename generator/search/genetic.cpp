@@ -1,8 +1,8 @@
 // The genetic algorithm of Nowrouzezahrai et al., section 5 (one band) and section 6 (shared lobes).
 // Plain, an individual is a vector of angles; children come from two parents by uniform crossover, or from
 // one by mutation. So read it stalls from band 7 on, since a good angle alone is worth nothing. The cure
-// keeps the method and changes the gene: crossover and mutation exchange whole lobes, and every child is
-// improved by a short annealing over swaps of one lobe (swap_annealing.hpp).
+// keeps the method and changes the gene: crossover and mutation exchange whole lobes of a structured pool
+// (pool.hpp), and every child is improved by a long annealing over swaps of one lobe (swap_annealing.hpp).
 
 #include "search/genetic.hpp"
 

@@ -1,8 +1,7 @@
 // The whole search: islands breed in parallel, one generation at a time; each confirms and refines those of
 // its best sets that it has not met before. A set that gained off the grid breeds on, and its new angles
-// become candidates for all: at order 7 that took a minute's search from 230 nonzeros to 219. Every few
-// generations the best of an island moves on to the next; an island that has stalled begins anew. Nothing
-// depends on time but when the search ends.
+// become candidates for all. Every few generations the best of an island moves on to the next; an island that
+// has stalled begins anew. Nothing depends on time but when the search ends.
 
 #include "search/search.hpp"
 

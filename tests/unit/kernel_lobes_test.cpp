@@ -8,16 +8,20 @@
 namespace zonal::kernels {
 namespace {
 
-constexpr int kOrder = 6;
+std::filesystem::path tables() { return std::filesystem::path(ZONAL_SOURCE_DIR) / "generator/tables"; }
 
-LobeSet committed_lobes() {
-    const std::filesystem::path tables = std::filesystem::path(ZONAL_SOURCE_DIR) / "generator/tables";
-    const LobeUse use = LobeUse::order(kOrder);
-    return LobeSet::shared(kOrder, read_lobe_table(tables / use.table_name(), use).directions);
+std::vector<exact::Direction<exact::Real>> directions_of(const LobeUse& use) {
+    return read_lobe_table(tables() / use.table_name(), use).directions;
+}
+
+LobeSet shared_lobes(int order) { return LobeSet::shared(order, directions_of(LobeUse::order(order))); }
+
+int nonzeros(const exact::BandFactorization& band) {
+    return static_cast<int>(band.a_hat.size()) - band.zeros;
 }
 
 TEST(Factorize, multiplications_of_its_bands_are_those_of_the_kernel) {
-    const LobeSet lobes = committed_lobes();
+    const LobeSet lobes = shared_lobes(6);
     int multiplications = 0;
     for (const exact::BandFactorization& band : lobes.bands)
         multiplications += factorization_multiplications(band);
@@ -25,13 +29,44 @@ TEST(Factorize, multiplications_of_its_bands_are_those_of_the_kernel) {
     EXPECT_EQ(multiplications, kernel.multiplications());
 }
 
-TEST(Factorize, multiplies_at_most_17_times_for_20_nonzeros) {
-    const LobeSet lobes = committed_lobes();
-    for (const exact::BandFactorization& band : lobes.bands) {
-        if (band.band < 2) continue;
-        const int nonzeros = static_cast<int>(band.a_hat.size()) - band.zeros;
-        EXPECT_LE(20 * factorization_multiplications(band), 17 * nonzeros) << "band " << band.band;
+TEST(Factorize, multiplies_at_most_17_times_for_20_nonzeros_of_a_band) {
+    for (int l = 2; l <= 10; ++l) {
+        const exact::BandFactorization band = exact::factorize_band(l, directions_of(LobeUse::band(l)));
+        EXPECT_LE(20 * factorization_multiplications(band), 17 * nonzeros(band)) << "band " << l;
     }
+}
+
+/// Of bands >= 2.
+TEST(Factorize, multiplies_at_most_17_times_for_20_nonzeros_of_an_order) {
+    for (int order = 3; order <= 11; ++order) {
+        const LobeSet lobes = shared_lobes(order);
+        int multiplications = 0, entries = 0;
+        for (const exact::BandFactorization& band : lobes.bands) {
+            if (band.band < 2) continue;
+            multiplications += factorization_multiplications(band);
+            entries += nonzeros(band);
+        }
+        EXPECT_LE(20 * multiplications, 17 * entries) << "order " << order;
+    }
+}
+
+TEST(LobeSet, weights_of_a_ring_are_all_lobes_of_every_band) {
+    const LobeSet ring = LobeSet::ring(5);
+    EXPECT_EQ(ring.weight_start(0), 0);
+    EXPECT_EQ(ring.weight_start(3), 27);
+    EXPECT_EQ(ring.weight_start(5), 45);
+    EXPECT_EQ(ring.directions.size(), 9);
+}
+
+TEST(LobeSet, every_band_has_lobes_of_its_own) {
+    using Direction = exact::Direction<exact::Real>;
+    const LobeSet lobes = LobeSet::per_band({{Direction::UnitZ()},
+                                             {Direction::UnitY(), Direction::UnitZ(), Direction::UnitX()},
+                                             directions_of(LobeUse::band(2))});
+    EXPECT_EQ(lobes.order, 3);
+    EXPECT_EQ(lobes.directions.size(), 9);
+    EXPECT_EQ(lobes.lobes_of[2], (std::vector<int>{4, 5, 6, 7, 8}));
+    EXPECT_EQ(lobes.bands[2].zeros, 16);
 }
 
 }  // namespace

@@ -78,6 +78,31 @@ TEST(Search, resumed_is_never_worse) {
     EXPECT_LE(resumed.best.score.cost({}), first.best.score.cost({}));
 }
 
+TEST(Search, front_holds_what_no_other_set_beats) {
+    const Problem problem = Problem::shared(5);
+    const SearchResult result = search_lobes(problem, settings_for(problem, 6), kNoStop);
+    ASSERT_GE(result.front.size(), 2);
+    for (const Solution& a : result.front) {
+        EXPECT_LE(a.score.condition, 50);
+        for (const Solution& b : result.front) {
+            if (&a == &b) continue;
+            EXPECT_TRUE(a.score.nonzeros < b.score.nonzeros ||
+                        a.score.multiplications < b.score.multiplications ||
+                        a.score.condition < b.score.condition);
+        }
+    }
+    EXPECT_LE(result.front.front().score.nonzeros, result.best.score.nonzeros);
+}
+
+TEST(Search, finds_more_zeros_of_band_9_than_the_paper_in_a_few_generations) {
+    const Problem problem = Problem::one_band(9);
+    SearchSettings settings = settings_for(problem, 3);
+    settings.leaves_grid = false;
+    const SearchResult result = search_lobes(problem, settings, kNoStop);
+    EXPECT_GE(result.best.score.zeros, 181);  // the paper: 39 % of 361
+    EXPECT_LE(result.best.score.condition, 50);
+}
+
 TEST(Search, observer_hears_every_generation_and_every_gain) {
     const Problem problem = Problem::shared(4);
     int generations = 0;
