@@ -30,4 +30,17 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
     if (error) fail(error.message());
 }
 
+void check_is_writable(const std::string& option, const std::filesystem::path& path) {
+    const std::filesystem::path probe = path.string() + ".probe";
+    try {
+        write_file_atomically(probe, "");
+    } catch (const UserError&) {
+        throw UserError(
+            fmt::format("{} {}: nothing can be written beside it; mend the permissions of its "
+                        "folder or choose another file",
+                        option, path.string()));
+    }
+    std::filesystem::remove(probe);
+}
+
 }  // namespace zonal

@@ -10,4 +10,8 @@ namespace zonal {
 /// reason.
 void write_file_atomically(const std::filesystem::path& path, const std::string& content);
 
+/// For the beginning of long work: throws `UserError`, which names the option, unless `path` could be
+/// written.
+void check_is_writable(const std::string& option, const std::filesystem::path& path);
+
 }  // namespace zonal

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "output_file.hpp"
@@ -22,15 +21,8 @@ struct Options {
     std::uint64_t seed = 1;
 };
 
-/// Fails before half a minute's work, not after it.
-void check_is_writable(const std::filesystem::path& path) {
-    const std::filesystem::path probe = path.string() + ".probe";
-    write_file_atomically(probe, "");
-    std::filesystem::remove(probe);
-}
-
 void run(const Options& options) {
-    if (!options.html.empty()) check_is_writable(options.html);
+    if (!options.html.empty()) check_is_writable("--html", options.html);
     const bool is_watched = isatty(STDERR_FILENO) != 0;
     const auto show = [&](const std::string& step) {
         if (is_watched) fmt::print(stderr, "\r\033[K{}", step);

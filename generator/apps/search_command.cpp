@@ -172,24 +172,10 @@ std::string archive_text(const Options& options, const search::SearchResult& res
     return archive.dump(2) + "\n";
 }
 
-/// Fails before a long search, not after it.
-void check_is_writable(const std::filesystem::path& path) {
-    const std::filesystem::path probe = path.string() + ".probe";
-    try {
-        write_file_atomically(probe, "");
-    } catch (const UserError&) {
-        throw UserError(
-            fmt::format("--out {}: nothing can be written beside it; mend the permissions of its "
-                        "folder or choose another file",
-                        path.string()));
-    }
-    std::filesystem::remove(probe);
-}
-
 void run(const Options& options) {
     check_use(options);
-    check_is_writable(options.out);
-    if (!options.archive.empty()) check_is_writable(options.archive);
+    check_is_writable("--out", options.out);
+    if (!options.archive.empty()) check_is_writable("--archive", options.archive);
     const search::Problem problem = options.problem();
     const search::SearchSettings settings = settings_of(options, problem);
 
