@@ -38,7 +38,8 @@ bool is_axis(const Direction<Real>& direction, int axis) {
 std::vector<Square> squares_of(const LobeSet& lobes) {
     const exact::Matrix<Real>& a_hat = lobes.bands[2].a_hat;
     std::vector<Square> squares;
-    for (int d = 0; d < kCount; ++d) squares.push_back({lobes.directions[d], a_hat.col(d)});
+    for (int d = 0; d < kCount; ++d)
+        squares.push_back({lobes.directions[lobes.lobes_of[2][d]], a_hat.col(d)});
     const exact::Vector<Real> trace_part = -a_hat.rowwise().sum() / 3;
     for (int axis = 0; axis < 3; ++axis) {
         const auto known = std::find_if(squares.begin(), squares.end(), [&](const Square& square) {

@@ -25,15 +25,15 @@ int instructions(const std::vector<Kernel>& kernels, const std::string& name) {
     return graph::count_operations(*kernel).total().instructions();
 }
 
-/// Those of lobes of their own for every band, where factorizing or resampling by them costs less than by
-/// shared ones; `rotate_zhf` too if it does. It seldom can: no harmonics are shared between bands.
+/// The products of lobes of each band's own, where factorizing or resampling by them costs less than by
+/// shared ones. Not `rotate_zhf`: where nothing is shared between bands, turning costs more.
 std::vector<Kernel> per_band_kernels(const LobeSet& lobes, const std::vector<Kernel>& shared) {
     std::vector<Kernel> own = lobe_kernels(lobes, "per_band");
     const auto costs_less = [&](const char* name) {
         return instructions(own, name) < instructions(shared, name);
     };
     if (!costs_less("factorize") && !costs_less("resample")) return {};
-    if (!costs_less("rotate_zhf")) std::erase_if(own, [](const Kernel& k) { return k.name == "rotate_zhf"; });
+    std::erase_if(own, [](const Kernel& kernel) { return kernel.name == "rotate_zhf"; });
     return own;
 }
 
