@@ -20,9 +20,9 @@ void append_bound(std::vector<std::string>& lines, const Unit& unit, const graph
         lines.push_back(fmt::format("{} none published: see generator/tables/README.md", kernel.full_name()));
         return;
     }
-    lines.push_back(fmt::format("{} relative error {} (float), {} (double), for {};", kernel.full_name(),
-                                bound->second.float_text, bound->second.double_text, domain_text(kernel)));
-    lines.push_back(fmt::format("  excess {}", bound->second.excess_text));
+    lines.push_back(fmt::format("{} relative error {} (float), {} (double),", kernel.full_name(),
+                                bound->second.float_text, bound->second.double_text));
+    lines.push_back(fmt::format("  for {}; excess {}", domain_text(kernel), bound->second.excess_text));
 }
 
 /// "key     : first", "          second" …

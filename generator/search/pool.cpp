@@ -62,7 +62,8 @@ std::vector<int> usual_zero_bands(const std::vector<int>& bands) {
 std::vector<int> usual_rings(const std::vector<int>& bands) {
     const int highest = bands.back();
     if (bands.size() > 1) return highest < 12 ? std::vector{4, 6} : std::vector{4, 6, 8};
-    if (highest <= 5 || highest == 13) return {8, 10};
+    if (highest <= 5) return {6, 8, 10};
+    if (highest == 13) return {8, 10};
     if (highest >= 8 && highest % 2 == 0) return {2};
     return highest < 12 ? std::vector{4, 6} : std::vector{6, 8};
 }

@@ -31,7 +31,7 @@ Bound bound(int order, const std::string& kernel) {
     const std::smatch match = find(
         order, kernel, text,
         " " + kernel +
-            R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\), for det R = [^;]*;\s+//\s+excess ([0-9.]+))");
+            R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\),\s+//\s+for det R = [^;]*; excess ([0-9.]+))");
     return {std::stod(match[1]), std::stod(match[2]), std::stod(match[3])};
 }
 

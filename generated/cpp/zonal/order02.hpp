@@ -12,14 +12,14 @@
 //             per extra vector 3 mul 0 add 6 fma 0 other
 //           blocks 0 mul 0 add 0 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate relative error 1.3e-07 (float), 2.4e-16 (double), for det R = +1 or -1;
-//             excess 0.55
-//           apply relative error 1.3e-07 (float), 2.4e-16 (double), for det R = +1 or -1;
-//             excess 0.55
-//           rotate_accurate relative error 1.3e-07 (float), 2.4e-16 (double), for det R = +1 or -1;
-//             excess 0.55
-//           blocks relative error 1.3e-07 (float), 3.0e-16 (double), for det R = +1 or -1;
-//             excess 0.55
+// bound   : rotate relative error 1.3e-07 (float), 2.4e-16 (double),
+//             for det R = +1 or -1; excess 0.55
+//           apply relative error 1.3e-07 (float), 2.4e-16 (double),
+//             for det R = +1 or -1; excess 0.55
+//           rotate_accurate relative error 1.3e-07 (float), 2.4e-16 (double),
+//             for det R = +1 or -1; excess 0.55
+//           blocks relative error 1.3e-07 (float), 3.0e-16 (double),
+//             for det R = +1 or -1; excess 0.55
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998

@@ -43,20 +43,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 46 mul 17 add 105 fma 0 other;
 //             per extra vector 18 mul 0 add 38 fma 0 other
-// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double), for det R = +1;
-//             excess 2.24
-//           rotate relative error 2.6e-07 (float), 6.6e-16 (double), for det R = +1 or -1;
-//             excess 2.23
-//           apply relative error 1.6e-07 (float), 3.3e-16 (double), for det R = +1 or -1;
-//             excess 1.08
-//           rotate_accurate relative error 1.6e-07 (float), 3.3e-16 (double), for det R = +1 or -1;
-//             excess 1.08
-//           blocks relative error 1.8e-07 (float), 3.3e-16 (double), for det R = +1 or -1;
-//             excess 1.08
-//           rotate_zhf relative error 4.9e-07 (float), 8.8e-16 (double), for det R = +1 or -1;
-//             excess 1.00
-//           stable::rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double), for det R = +1 or -1;
-//             excess 1.00
+// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double),
+//             for det R = +1; excess 2.24
+//           rotate relative error 2.6e-07 (float), 6.6e-16 (double),
+//             for det R = +1 or -1; excess 2.23
+//           apply relative error 1.6e-07 (float), 3.3e-16 (double),
+//             for det R = +1 or -1; excess 1.08
+//           rotate_accurate relative error 1.6e-07 (float), 3.3e-16 (double),
+//             for det R = +1 or -1; excess 1.08
+//           blocks relative error 1.8e-07 (float), 3.3e-16 (double),
+//             for det R = +1 or -1; excess 1.08
+//           rotate_zhf relative error 4.9e-07 (float), 8.8e-16 (double),
+//             for det R = +1 or -1; excess 1.00
+//           stable::rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double),
+//             for det R = +1 or -1; excess 1.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998

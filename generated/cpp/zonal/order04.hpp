@@ -44,20 +44,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 104 mul 39 add 210 fma 0 other;
 //             per extra vector 48 mul 0 add 119 fma 0 other
-// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double), for det R = +1;
-//             excess 2.56
-//           rotate relative error 9.3e-07 (float), 2.4e-15 (double), for det R = +1;
-//             excess 2.56
-//           apply relative error 9.3e-07 (float), 2.4e-15 (double), for det R = +1;
-//             excess 2.56
-//           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double), for det R = +1 or -1;
-//             excess 1.61
-//           blocks relative error 2.1e-07 (float), 4.5e-16 (double), for det R = +1 or -1;
-//             excess 1.61
-//           rotate_zhf relative error 1.4e-06 (float), 2.6e-15 (double), for det R = +1 or -1;
-//             excess 1.50
-//           stable::rotate_zhf relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1 or -1;
-//             excess 1.50
+// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double),
+//             for det R = +1; excess 2.56
+//           rotate relative error 9.3e-07 (float), 2.4e-15 (double),
+//             for det R = +1; excess 2.56
+//           apply relative error 9.3e-07 (float), 2.4e-15 (double),
+//             for det R = +1; excess 2.56
+//           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double),
+//             for det R = +1 or -1; excess 1.61
+//           blocks relative error 2.1e-07 (float), 4.5e-16 (double),
+//             for det R = +1 or -1; excess 1.61
+//           rotate_zhf relative error 1.4e-06 (float), 2.6e-15 (double),
+//             for det R = +1 or -1; excess 1.50
+//           stable::rotate_zhf relative error 1.2e-06 (float), 3.0e-15 (double),
+//             for det R = +1 or -1; excess 1.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

@@ -45,20 +45,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 204 mul 69 add 387 fma 0 other;
 //             per extra vector 99 mul 0 add 255 fma 0 other
-// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double), for det R = +1;
-//             excess 4.21
-//           rotate relative error 1.7e-06 (float), 4.5e-15 (double), for det R = +1;
-//             excess 4.21
-//           apply relative error 1.7e-06 (float), 4.4e-15 (double), for det R = +1;
-//             excess 4.21
-//           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double), for det R = +1 or -1;
-//             excess 2.13
-//           blocks relative error 2.8e-07 (float), 4.9e-16 (double), for det R = +1 or -1;
-//             excess 2.13
-//           rotate_zhf relative error 3.9e-06 (float), 7.0e-15 (double), for det R = +1 or -1;
-//             excess 2.00
-//           stable::rotate_zhf relative error 3.1e-06 (float), 4.0e-15 (double), for det R = +1 or -1;
-//             excess 2.00
+// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double),
+//             for det R = +1; excess 4.21
+//           rotate relative error 1.7e-06 (float), 4.5e-15 (double),
+//             for det R = +1; excess 4.21
+//           apply relative error 1.7e-06 (float), 4.4e-15 (double),
+//             for det R = +1; excess 4.21
+//           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double),
+//             for det R = +1 or -1; excess 2.13
+//           blocks relative error 2.8e-07 (float), 4.9e-16 (double),
+//             for det R = +1 or -1; excess 2.13
+//           rotate_zhf relative error 3.9e-06 (float), 7.0e-15 (double),
+//             for det R = +1 or -1; excess 2.00
+//           stable::rotate_zhf relative error 3.1e-06 (float), 4.0e-15 (double),
+//             for det R = +1 or -1; excess 2.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

@@ -46,20 +46,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 358 mul 96 add 696 fma 0 other;
 //             per extra vector 177 mul 0 add 500 fma 0 other
-// bound   : rotate_channels relative error 3.2e-06 (float), 7.2e-15 (double), for det R = +1;
-//             excess 6.43
-//           rotate relative error 3.2e-06 (float), 7.2e-15 (double), for det R = +1;
-//             excess 6.43
-//           apply relative error 3.2e-06 (float), 7.2e-15 (double), for det R = +1;
-//             excess 6.43
-//           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double), for det R = +1 or -1;
-//             excess 2.66
-//           blocks relative error 3.1e-07 (float), 6.3e-16 (double), for det R = +1 or -1;
-//             excess 2.66
-//           rotate_zhf relative error 7.5e-06 (float), 1.5e-14 (double), for det R = +1 or -1;
-//             excess 2.50
-//           stable::rotate_zhf relative error 3.3e-06 (float), 7.1e-15 (double), for det R = +1 or -1;
-//             excess 2.50
+// bound   : rotate_channels relative error 3.2e-06 (float), 7.2e-15 (double),
+//             for det R = +1; excess 6.43
+//           rotate relative error 3.2e-06 (float), 7.2e-15 (double),
+//             for det R = +1; excess 6.43
+//           apply relative error 3.2e-06 (float), 7.2e-15 (double),
+//             for det R = +1; excess 6.43
+//           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double),
+//             for det R = +1 or -1; excess 2.66
+//           blocks relative error 3.1e-07 (float), 6.3e-16 (double),
+//             for det R = +1 or -1; excess 2.66
+//           rotate_zhf relative error 7.5e-06 (float), 1.5e-14 (double),
+//             for det R = +1 or -1; excess 2.50
+//           stable::rotate_zhf relative error 3.3e-06 (float), 7.1e-15 (double),
+//             for det R = +1 or -1; excess 2.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

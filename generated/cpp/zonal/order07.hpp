@@ -47,20 +47,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 591 mul 140 add 1203 fma 0 other;
 //             per extra vector 288 mul 0 add 836 fma 0 other
-// bound   : rotate_channels relative error 1.3e-06 (float), 2.2e-15 (double), for det R = +1;
-//             excess 4.20
-//           rotate relative error 1.2e-06 (float), 2.2e-15 (double), for det R = +1;
-//             excess 6.28
-//           apply relative error 1.2e-06 (float), 2.2e-15 (double), for det R = +1;
-//             excess 6.28
-//           rotate_accurate relative error 3.7e-07 (float), 6.0e-16 (double), for det R = +1 or -1;
-//             excess 3.19
-//           blocks relative error 3.7e-07 (float), 6.0e-16 (double), for det R = +1 or -1;
-//             excess 3.19
-//           rotate_zhf relative error 5.0e-06 (float), 7.6e-15 (double), for det R = +1 or -1;
-//             excess 3.00
-//           stable::rotate_zhf relative error 2.8e-06 (float), 5.3e-15 (double), for det R = +1 or -1;
-//             excess 3.00
+// bound   : rotate_channels relative error 1.3e-06 (float), 2.2e-15 (double),
+//             for det R = +1; excess 4.20
+//           rotate relative error 1.2e-06 (float), 2.2e-15 (double),
+//             for det R = +1; excess 6.28
+//           apply relative error 1.2e-06 (float), 2.2e-15 (double),
+//             for det R = +1; excess 6.28
+//           rotate_accurate relative error 3.7e-07 (float), 6.0e-16 (double),
+//             for det R = +1 or -1; excess 3.19
+//           blocks relative error 3.7e-07 (float), 6.0e-16 (double),
+//             for det R = +1 or -1; excess 3.19
+//           rotate_zhf relative error 5.0e-06 (float), 7.6e-15 (double),
+//             for det R = +1 or -1; excess 3.00
+//           stable::rotate_zhf relative error 2.8e-06 (float), 5.3e-15 (double),
+//             for det R = +1 or -1; excess 3.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

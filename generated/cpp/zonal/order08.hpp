@@ -48,20 +48,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 891 mul 192 add 1707 fma 0 other;
 //             per extra vector 438 mul 0 add 1200 fma 0 other
-// bound   : rotate_channels relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1;
-//             excess 6.29
-//           rotate relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1;
-//             excess 6.29
-//           apply relative error 1.2e-06 (float), 3.0e-15 (double), for det R = +1;
-//             excess 6.29
-//           rotate_accurate relative error 4.0e-07 (float), 8.2e-16 (double), for det R = +1 or -1;
-//             excess 3.72
-//           blocks relative error 4.0e-07 (float), 8.2e-16 (double), for det R = +1 or -1;
-//             excess 3.72
-//           rotate_zhf relative error 1.8e-05 (float), 3.2e-14 (double), for det R = +1 or -1;
-//             excess 3.50
-//           stable::rotate_zhf relative error 3.4e-06 (float), 7.1e-15 (double), for det R = +1 or -1;
-//             excess 3.50
+// bound   : rotate_channels relative error 1.2e-06 (float), 3.0e-15 (double),
+//             for det R = +1; excess 6.29
+//           rotate relative error 1.2e-06 (float), 3.0e-15 (double),
+//             for det R = +1; excess 6.29
+//           apply relative error 1.2e-06 (float), 3.0e-15 (double),
+//             for det R = +1; excess 6.29
+//           rotate_accurate relative error 4.0e-07 (float), 8.2e-16 (double),
+//             for det R = +1 or -1; excess 3.72
+//           blocks relative error 4.0e-07 (float), 8.2e-16 (double),
+//             for det R = +1 or -1; excess 3.72
+//           rotate_zhf relative error 1.8e-05 (float), 3.2e-14 (double),
+//             for det R = +1 or -1; excess 3.50
+//           stable::rotate_zhf relative error 3.4e-06 (float), 7.1e-15 (double),
+//             for det R = +1 or -1; excess 3.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

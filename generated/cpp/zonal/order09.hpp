@@ -49,20 +49,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 1281 mul 235 add 2577 fma 0 other;
 //             per extra vector 633 mul 0 add 1889 fma 0 other
-// bound   : rotate_channels relative error 2.0e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 6.29
-//           rotate relative error 1.8e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 8.38
-//           apply relative error 1.8e-06 (float), 3.9e-15 (double), for det R = +1;
-//             excess 8.38
-//           rotate_accurate relative error 5.6e-07 (float), 9.6e-16 (double), for det R = +1 or -1;
-//             excess 4.24
-//           blocks relative error 5.5e-07 (float), 9.6e-16 (double), for det R = +1 or -1;
-//             excess 4.24
-//           rotate_zhf relative error 2.4e-05 (float), 3.9e-14 (double), for det R = +1 or -1;
-//             excess 4.00
-//           stable::rotate_zhf relative error 4.5e-06 (float), 5.8e-15 (double), for det R = +1 or -1;
-//             excess 4.00
+// bound   : rotate_channels relative error 2.0e-06 (float), 4.1e-15 (double),
+//             for det R = +1; excess 6.29
+//           rotate relative error 1.8e-06 (float), 4.1e-15 (double),
+//             for det R = +1; excess 8.38
+//           apply relative error 1.8e-06 (float), 3.9e-15 (double),
+//             for det R = +1; excess 8.38
+//           rotate_accurate relative error 5.6e-07 (float), 9.6e-16 (double),
+//             for det R = +1 or -1; excess 4.24
+//           blocks relative error 5.5e-07 (float), 9.6e-16 (double),
+//             for det R = +1 or -1; excess 4.24
+//           rotate_zhf relative error 2.4e-05 (float), 3.9e-14 (double),
+//             for det R = +1 or -1; excess 4.00
+//           stable::rotate_zhf relative error 4.5e-06 (float), 5.8e-15 (double),
+//             for det R = +1 or -1; excess 4.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles

@@ -50,20 +50,20 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 1773 mul 301 add 3558 fma 0 other;
 //             per extra vector 879 mul 0 add 2642 fma 0 other
-// bound   : rotate_channels relative error 1.5e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 8.38
-//           rotate relative error 1.6e-06 (float), 4.1e-15 (double), for det R = +1;
-//             excess 8.38
-//           apply relative error 1.5e-06 (float), 4.0e-15 (double), for det R = +1;
-//             excess 8.38
-//           rotate_accurate relative error 5.5e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
-//             excess 4.77
-//           blocks relative error 5.5e-07 (float), 1.2e-15 (double), for det R = +1 or -1;
-//             excess 4.77
-//           rotate_zhf relative error 2.1e-05 (float), 4.0e-14 (double), for det R = +1 or -1;
-//             excess 4.50
-//           stable::rotate_zhf relative error 7.2e-06 (float), 8.1e-15 (double), for det R = +1 or -1;
-//             excess 4.50
+// bound   : rotate_channels relative error 1.5e-06 (float), 4.1e-15 (double),
+//             for det R = +1; excess 8.38
+//           rotate relative error 1.6e-06 (float), 4.1e-15 (double),
+//             for det R = +1; excess 8.38
+//           apply relative error 1.5e-06 (float), 4.0e-15 (double),
+//             for det R = +1; excess 8.38
+//           rotate_accurate relative error 5.5e-07 (float), 1.2e-15 (double),
+//             for det R = +1 or -1; excess 4.77
+//           blocks relative error 5.5e-07 (float), 1.2e-15 (double),
+//             for det R = +1 or -1; excess 4.77
+//           rotate_zhf relative error 2.1e-05 (float), 4.0e-14 (double),
+//             for det R = +1 or -1; excess 4.50
+//           stable::rotate_zhf relative error 7.2e-06 (float), 8.1e-15 (double),
+//             for det R = +1 or -1; excess 4.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
