@@ -34,7 +34,6 @@ using graph::Kind;
 using graph::Value;
 
 const char* const kPaper = "Nowrouzezahrai, Simari, Fiume 2012, ";
-const char* const kSignalLayout = "index l(l+1)+m";
 
 int band_start(int l) { return l * l; }
 int band_size(int l) { return 2 * l + 1; }
