@@ -38,7 +38,7 @@ struct BandLobes {
 /// The kernels of an order, as `emit` and `stats` need them.
 struct OrderKernels {
     int order = 0;
-    std::optional<OrderLobes> lobes;  ///< none where the project has no table of this order
+    std::optional<OrderLobes> lobes;      ///< none where the project has no table of this order
     std::optional<BandLobes> band_lobes;  ///< none where a band's table is missing
     std::vector<graph::Kernel> kernels;
     std::map<std::string, emit::Bound> bounds;  ///< those published for these very kernels

@@ -26,10 +26,10 @@ struct Constant {
 /// Everything one generated file holds, ready to print in any language: kernels are optimized, texts are
 /// final.
 struct Unit {
-    std::string name;     ///< "order4": namespace or prefix
-    std::string command;  ///< the command that makes the same bytes again
+    std::string name;                 ///< "order4": namespace or prefix
+    std::string command;              ///< the command that makes the same bytes again
     std::vector<std::string> tables;  ///< path and hash of each lobe table; or that there is none
-    std::string basis;    ///< the convention, one line
+    std::string basis;                ///< the convention, one line
     std::vector<std::string> sources;
     std::vector<graph::Kernel> kernels;
     std::vector<Constant> constants;

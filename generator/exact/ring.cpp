@@ -52,13 +52,14 @@ BandFactorization Ring::factorize(int l) const {
             ++result.zeros;
         }
     }
-    result.condition = std::sqrt(static_cast<double>(Real(squared_norms.maxCoeff() / squared_norms.minCoeff())));
+    result.condition =
+        std::sqrt(static_cast<double>(Real(squared_norms.maxCoeff() / squared_norms.minCoeff())));
     return result;
 }
 
 Ring best_ring(int order) {
-    // Above this the zeros of the profiles with l + m odd are near; steps are coarse enough for every compiler
-    // to agree on the best.
+    // Above this the zeros of the profiles with l + m odd are near; steps are coarse enough for every
+    // compiler to agree on the best.
     constexpr int kSteps = 157;
     int best = 1;
     for (int step = 2; step <= kSteps; ++step)
