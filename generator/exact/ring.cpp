@@ -58,8 +58,8 @@ BandFactorization Ring::factorize(int l) const {
 }
 
 Ring best_ring(int order) {
-    // Above this the zeros of the profiles with l + m odd are near; steps are coarse enough for every
-    // compiler to agree on the best.
+    // Up to the equator, where the profiles with l + m odd vanish. Steps are coarse enough for every compiler
+    // to agree on the best.
     constexpr int kSteps = 157;
     int best = 1;
     for (int step = 2; step <= kSteps; ++step)

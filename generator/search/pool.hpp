@@ -34,8 +34,9 @@ class Pool {
     std::map<int, std::vector<Lobe>> by_theta_, by_phi_;
 };
 
-/// The rings that find most for these bands. A band alone of even l >= 8 wants the great circles; and where
-/// m = 12 occurs, which the rings of 4 and 6 do not see, larger ones.
+/// The rings that find most for these bands, by trial. A band alone of even l >= 8 wants the great circles;
+/// bands up to 5, whose pools are small, many rings; and where m = 12 occurs, which the rings of 4 and 6 do
+/// not see, there must be larger ones.
 std::vector<int> usual_rings(const std::vector<int>& bands);
 
 /// The bands whose Legendre zeros find most: a band's own, or all of those that share lobes.
