@@ -12,7 +12,7 @@ trap 'rm -rf "$folder"' EXIT
 search() { # OPTION NUMBER WANTED: one line, "ok" or "short of"
   local found zeros
   found=$("$gen" search "$1" "$2" --seed 1 --seconds "$seconds" --multiplication-weight 0.02 \
-    --condition-weight 0.1 --out "$folder/table.json" 2>&1 | head -n 1)
+    --condition-weight 0.1 --out "$folder/table.json" 2>&1 >"$folder/path")
   if [ "$1" = --band ]; then
     zeros=$(sed -n 's/.*(\([0-9]*\) zeros).*/\1/p' <<<"$found")
     [ "$zeros" -ge "$3" ] && verdict=ok || verdict="short of"
