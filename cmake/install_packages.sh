@@ -5,6 +5,7 @@ packages=(
   g++ cmake ninja-build pkg-config git
   libeigen3-dev libboost-dev libnlopt-dev libnlopt-cxx-dev libtbb-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libssl-dev libopenexr-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev libhwy-dev
+  spirv-tools spirv-headers
 )
 packages+=("$@")
 missing=()

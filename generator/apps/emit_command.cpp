@@ -8,6 +8,9 @@
 #include <memory>
 
 #include "emit/cpp.hpp"
+#include "emit/file.hpp"
+#include "emit/glsl.hpp"
+#include "emit/spirv.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
 #include "user_error.hpp"
@@ -16,25 +19,53 @@ namespace zonal {
 
 namespace {
 
-struct Language {
-    std::function<std::string(const emit::Unit&)> print;
-    std::function<std::string(int order)> file_name;  ///< relative to the output folder
-};
-
-/// Adding a language is one line here.
-const std::map<std::string, Language>& languages() {
-    static const std::map<std::string, Language> all{
-        {"cpp", {emit::print_cpp, [](int order) { return fmt::format("zonal/order{:02}.hpp", order); }}},
-    };
-    return all;
-}
+namespace fs = std::filesystem;
 
 struct Options {
     int order = 0;
     std::string language;
     std::string table;
     std::string out;
+    bool is_optimized = false;
+    bool is_binary = false;
 };
+
+using Files = std::vector<emit::File>;
+
+std::string as_bytes(const std::vector<std::uint32_t>& words) {
+    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(words[0])};
+}
+
+/// Every module is assembled and validated before it is written.
+Files spirv_files(const emit::Unit& unit, const Options& options) {
+    Files files;
+    for (emit::SpirvModule& module : emit::print_spirv(unit)) {
+        if (options.is_optimized) module.file.content = emit::optimize_spirv(module.file.content, module.use);
+        const std::vector<std::uint32_t> words = emit::assemble(module.file.content, module.use);
+        files.push_back(module.file);
+        if (options.is_binary)
+            files.push_back({fs::path(module.file.path).replace_extension(".spv").string(), as_bytes(words)});
+    }
+    return files;
+}
+
+using Language = std::function<Files(const emit::Unit&, const Options&)>;
+
+/// Adding a language is one entry here.
+const std::map<std::string, Language>& languages() {
+    static const std::map<std::string, Language> all{
+        {"cpp",
+         [](const emit::Unit& unit, const Options&) -> Files {
+             return {{"zonal/" + unit.file_stem + ".hpp", emit::print_cpp(unit)}};
+         }},
+        {"glsl",
+         [](const emit::Unit& unit, const Options&) -> Files {
+             return {{unit.file_stem + ".glsl", emit::print_glsl(unit)}};
+         }},
+        {"spirv", spirv_files},
+    };
+    return all;
+}
 
 const Language& find_language(const std::string& name) {
     const auto found = languages().find(name);
@@ -64,9 +95,11 @@ std::vector<std::string> tables_of(const OrderKernels& order) {
 emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", options.order);
-    unit.command = fmt::format(
-        "zonal-gen emit --order {} --language {}{} --out generated/{}", options.order, options.language,
-        options.table.empty() ? "" : " --table " + order.lobes->table_name, options.language);
+    unit.file_stem = fmt::format("order{:02}", options.order);
+    unit.command =
+        fmt::format("zonal-gen emit --order {} --language {}{}{} --out generated/{}", options.order,
+                    options.language, options.table.empty() ? "" : " --table " + order.lobes->table_name,
+                    options.is_optimized ? " --optimize" : "", options.language);
     unit.tables = tables_of(order);
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
     unit.kernels = order.kernels;
@@ -91,11 +124,15 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
 
 void run(const Options& options) {
     const Language& language = find_language(options.language);
+    if ((options.is_optimized || options.is_binary) && options.language != "spirv")
+        throw UserError(
+            fmt::format("--optimize, --binary: found with --language {}, wanted spirv", options.language));
     const OrderKernels order = build_order_kernels(options.order, options.table);
-    const std::filesystem::path folder = options.out.empty() ? "generated/" + options.language : options.out;
-    const std::filesystem::path path = folder / language.file_name(options.order);
-    write_file_atomically(path, language.print(make_unit(options, order)));
-    fmt::print("{}\n", path.string());
+    const fs::path folder = options.out.empty() ? "generated/" + options.language : options.out;
+    for (const emit::File& file : language(make_unit(options, order), options)) {
+        write_file_atomically(folder / file.path, file.content);
+        fmt::print("{}\n", (folder / file.path).string());
+    }
 }
 
 }  // namespace
@@ -104,9 +141,11 @@ void add_emit_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
     const auto options = std::make_shared<Options>();
     command->add_option("--order", options->order, "number of bands")->required();
-    command->add_option("--language", options->language, "cpp")->required();
+    command->add_option("--language", options->language, "cpp, glsl or spirv")->required();
     command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");
     command->add_option("--out", options->out, "folder to write into (default: generated/LANGUAGE)");
+    command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");
+    command->add_flag("--binary", options->is_binary, "spirv: write assembled modules (.spv) as well");
     command->callback([options] { run(*options); });
 }
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
-#include <sstream>
 #include <stdexcept>
 
 #include "emit/cpp_tables.hpp"
+#include "emit/straight_line.hpp"
 #include "emit/text.hpp"
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
@@ -69,18 +69,15 @@ struct scalar_of<V, std::void_t<typename V::value_type>> {
 };
 )";
 
-bool uses(const Kernel& kernel, Kind kind) {
-    if (kernel.output.kind == kind) return true;
-    for (const graph::Array& array : kernel.inputs)
-        if (array.kind == kind) return true;
-    return false;
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
 }
 
 const char* type_of(Kind kind) { return kind == Kind::signal ? "V" : "T"; }
 
 std::string template_line(const Kernel& kernel) {
-    if (!uses(kernel, Kind::signal)) return "template <class T>\n";
-    if (!uses(kernel, Kind::rotation)) return "template <class V, class T = typename scalar_of<V>::type>\n";
+    if (!kernel.uses(Kind::signal)) return "template <class T>\n";
+    if (!kernel.uses(Kind::rotation)) return "template <class V, class T = typename scalar_of<V>::type>\n";
     return "template <class T, class V = T>\n";
 }
 
@@ -112,37 +109,24 @@ std::string pascal_case(const std::string& name) {
     return result;
 }
 
-std::string comment_lines(const std::string& text) {
-    std::string result;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) result += "/// " + line + "\n";
-    return result;
-}
-
 std::string kernel_comment(const Kernel& kernel) {
-    std::string text = comment_lines(kernel.summary);
-    const auto describe = [&](const graph::Array& array) {
-        text += fmt::format("/// {} : {} values, {}.\n", array.name, array.size, array.comment);
-    };
-    for (const graph::Array& array : kernel.inputs) describe(array);
-    describe(kernel.output);
     const graph::Array& last = kernel.inputs.back();
-    text +=
+    std::vector<std::string> lines = purpose_lines(kernel);
+    lines.push_back(
         last.kind == Kind::signal
-            ? fmt::format("/// {} may be {}; they must not overlap in part.\n", kernel.output.name, last.name)
-            : fmt::format("/// {} must not overlap {}.\n", kernel.output.name, last.name);
-    if (kernel.needs_proper_rotation && kernel.inputs[0].name == "R")
-        text +=
-            "/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the\n"
-            "/// odd bands.\n";
+            ? fmt::format("{} may be {}; they must not overlap in part.", kernel.output.name, last.name)
+            : fmt::format("{} must not overlap {}.", kernel.output.name, last.name));
+    append(lines, precondition_lines(kernel));
     if (!kernel.for_channels.empty())
-        text += fmt::format("/// Where V is not T, a value of several channels, this is {}.\n",
-                            kernel.for_channels);
+        lines.push_back(
+            fmt::format("Where V is not T, a value of several channels, this is {}.", kernel.for_channels));
     if (kernel.has_bound)
-        text += fmt::format("/// Error: at most (k{0}Bound... + k{0}Excess |R R^T - I|_F) |{1}|.\n",
-                            pascal_case(kernel.name), last.kind == Kind::signal ? last.name : "signal");
-    text += "/// Cost: see the banner.\n";
-    for (const std::string& source : kernel.sources) text += fmt::format("/// Source: {}.\n", source);
+        lines.push_back(fmt::format("Error: at most (k{0}Bound... + k{0}Excess |R R^T - I|_F) |{1}|.",
+                                    pascal_case(kernel.name),
+                                    last.kind == Kind::signal ? last.name : "signal"));
+    append(lines, source_lines(kernel));
+    std::string text;
+    for (const std::string& line : lines) text += "/// " + line + "\n";
     return text;
 }
 
@@ -153,79 +137,20 @@ void check_in_place(const Kernel& kernel) {
             throw std::logic_error(kernel.name + " reads what it has overwritten");
 }
 
-/// The body of one kernel, a statement a value.
-class BodyPrinter {
+class CppSyntax : public Syntax {
   public:
-    BodyPrinter(const Kernel& kernel, int indentation)
-        : kernel_(kernel), names_(node_names(kernel)), indentation_(indentation, ' ') {}
-
-    std::string print() {
-        const std::vector<graph::Statement> statements = graph::schedule(kernel_);
-        load_rotation();
-        for (const graph::Statement& statement : statements) {
-            const Node& node = kernel_.graph[statement.node];
-            if (statement.is_store)
-                body_ += fmt::format("{}{}[{}] = {};\n", indentation_, kernel_.output.name, statement.index,
-                                     operand(statement.node));
-            else
-                body_ += fmt::format("{}const {} {} = {};\n", indentation_, type_of(node.kind),
-                                     names_.at(statement.node), expression(node));
-        }
-        return body_;
+    std::string declare(Kind kind, const std::string& name, const std::string& value) const override {
+        return fmt::format("const {} {} = {};", type_of(kind), name, value);
     }
-
-  private:
-    /// The rotation is read once, before anything is written.
-    void load_rotation() {
-        for (Id id = 0; id < kernel_.graph.size(); ++id) {
-            const Node& node = kernel_.graph[id];
-            if (node.op == Op::input && node.kind == Kind::rotation)
-                body_ += fmt::format("{}const T {} = {}[{}];\n", indentation_, names_.at(id),
-                                     kernel_.inputs[node.array].name, node.index);
-        }
+    std::string constant(const graph::Number& value) const override {
+        return fmt::format("T({})", literal(value));
     }
-
-    std::string operand(Id id, bool is_negated = false) const {
-        const Node& node = kernel_.graph[id];
-        const std::string sign = is_negated ? "-" : "";
-        if (node.op == Op::constant)
-            return fmt::format("T({})", literal(is_negated ? -node.value : node.value));
-        if (node.op == Op::input && node.kind == Kind::signal)
-            return fmt::format("{}{}[{}]", sign, kernel_.inputs[node.array].name, node.index);
-        return sign + names_.at(id);
+    std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
+        return fmt::format("fma({}, {}, {})", a, b, c);
     }
-
-    std::string expression(const Node& node) const {
-        const auto text = [&](int k) { return operand(node.operands[k]); };
-        switch (node.op) {
-            case Op::negate:
-                return operand(node.operands[0], true);
-            case Op::add:
-                return fmt::format("{} + {}", text(0), text(1));
-            case Op::subtract:
-                return fmt::format("{} - {}", text(0), text(1));
-            case Op::multiply:
-                return fmt::format("{} * {}", text(0), text(1));
-            case Op::fused:
-                return fmt::format("fma({}, {}, {})", operand(node.operands[0], node.negated_product),
-                                   text(1), operand(node.operands[2], node.negated_addend));
-            case Op::divide:
-                return fmt::format("{} / {}", text(0), text(1));
-            case Op::square_root:
-                return fmt::format("sqrt({})", text(0));
-            case Op::copy_sign:
-                return fmt::format("copysign({}, {})", text(0), text(1));
-            case Op::constant:
-            case Op::input:
-                break;
-        }
-        throw std::logic_error("constants and inputs are operands, not statements");
+    std::string copy_sign(const std::string& size, const std::string& sign) const override {
+        return fmt::format("copysign({}, {})", size, sign);
     }
-
-    const Kernel& kernel_;
-    std::map<Id, std::string> names_;
-    std::string indentation_;
-    std::string body_;
 };
 
 bool is_table_driven(const Kernel& kernel) {
@@ -241,7 +166,7 @@ struct Body {
 Body body_of(const Kernel& kernel) {
     check_in_place(kernel);
     if (!is_table_driven(kernel))
-        return {"", [&](int indentation) { return BodyPrinter(kernel, indentation).print(); }};
+        return {"", [&](int indentation) { return print_statements(kernel, CppSyntax(), indentation); }};
     const TablePrinter printer(kernel, pascal_case(kernel.name));
     return {printer.tables(), [=](int indentation) { return printer.body(indentation); }};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <sstream>
 
 #include "graph/counts.hpp"
 
@@ -31,6 +32,10 @@ void append(std::vector<std::string>& lines, const std::string& key, const std::
         lines.push_back(fmt::format("{:<8}{} {}", k == 0 ? key : "", k == 0 ? ":" : " ", values[k]));
 }
 
+std::string with_point(const std::string& digits) {
+    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
 }  // namespace
 
 std::vector<std::string> banner_lines(const Unit& unit) {
@@ -57,9 +62,36 @@ std::string domain_text(const graph::Kernel& kernel) {
     return kernel.needs_proper_rotation ? "det R = +1" : "det R = +1 or -1";
 }
 
+std::vector<std::string> purpose_lines(const graph::Kernel& kernel) {
+    std::vector<std::string> lines;
+    std::istringstream summary(kernel.summary);
+    for (std::string line; std::getline(summary, line);) lines.push_back(line);
+    const auto describe = [&](const graph::Array& array) {
+        lines.push_back(fmt::format("{} : {} values, {}.", array.name, array.size, array.comment));
+    };
+    for (const graph::Array& array : kernel.inputs) describe(array);
+    describe(kernel.output);
+    return lines;
+}
+
+std::vector<std::string> precondition_lines(const graph::Kernel& kernel) {
+    if (!kernel.needs_proper_rotation || kernel.inputs[0].name != "R") return {};
+    return {"Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the",
+            "odd bands."};
+}
+
+std::vector<std::string> source_lines(const graph::Kernel& kernel) {
+    std::vector<std::string> lines{"Cost: see the banner."};
+    for (const std::string& source : kernel.sources) lines.push_back(fmt::format("Source: {}.", source));
+    return lines;
+}
+
 std::string literal(const graph::Number& value) {
-    const std::string digits = fmt::format("{:.17g}", static_cast<double>(value));
-    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+    return with_point(fmt::format("{:.17g}", static_cast<double>(value)));
+}
+
+std::string float_literal(const graph::Number& value) {
+    return with_point(fmt::format("{:.9g}", static_cast<float>(static_cast<double>(value))));
 }
 
 std::map<graph::Id, std::string> node_names(const graph::Kernel& kernel) {

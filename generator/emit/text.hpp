@@ -15,8 +15,19 @@ std::vector<std::string> banner_lines(const Unit& unit);
 /// The rotations that a kernel is right for: "det R = +1".
 std::string domain_text(const graph::Kernel& kernel);
 
+/// What a kernel computes and what its arguments hold, for the comment in front of it, without comment signs.
+std::vector<std::string> purpose_lines(const graph::Kernel& kernel);
+
+/// What R must be, if not every orthonormal matrix will do.
+std::vector<std::string> precondition_lines(const graph::Kernel& kernel);
+
+std::vector<std::string> source_lines(const graph::Kernel& kernel);
+
 /// A constant as a decimal of at most 17 digits that reads back as the double nearest to it.
 std::string literal(const graph::Number& value);
+
+/// The float nearest to that double, as a decimal of at most 9 digits that reads back as the same float.
+std::string float_literal(const graph::Number& value);
 
 /// A unique identifier for every computed or named node: its own name, or its scope and a number.
 std::map<graph::Id, std::string> node_names(const graph::Kernel& kernel);

@@ -27,6 +27,7 @@ struct Constant {
 /// final.
 struct Unit {
     std::string name;                 ///< "order4": namespace or prefix
+    std::string file_stem;            ///< "order04": what names of files begin with
     std::string command;              ///< the command that makes the same bytes again
     std::vector<std::string> tables;  ///< path and hash of each lobe table; or that there is none
     std::string basis;                ///< the convention, one line

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,12 @@ struct Kernel {
 
     /// By which banners, counts and bounds call it: "rotate_zhf", "stable::rotate_zhf".
     std::string full_name() const { return variant.empty() ? name : variant + "::" + name; }
+
+    /// Whether an argument is of this kind.
+    bool uses(Kind kind) const {
+        const auto is_of_kind = [&](const Array& array) { return array.kind == kind; };
+        return is_of_kind(output) || std::any_of(inputs.begin(), inputs.end(), is_of_kind);
+    }
 
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
     void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }

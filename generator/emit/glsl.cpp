@@ -1,0 +1,89 @@
+// Prints expression graphs as GLSL functions: one statement a value.
+#include "emit/glsl.hpp"
+
+#include <fmt/format.h>
+
+#include "emit/straight_line.hpp"
+#include "emit/text.hpp"
+
+namespace zonal::emit {
+
+namespace {
+
+using graph::Kernel;
+using graph::Kind;
+
+/// float, or vec3 for signal values of three channels.
+class GlslSyntax : public Syntax {
+  public:
+    explicit GlslSyntax(bool has_channels) : signal_(has_channels ? "vec3" : "float") {}
+
+    std::string type_of(Kind kind) const { return kind == Kind::signal ? signal_ : "float"; }
+
+    std::string declare(Kind kind, const std::string& name, const std::string& value) const override {
+        return fmt::format("{} {} = {};", type_of(kind), name, value);
+    }
+    std::string constant(const graph::Number& value) const override { return float_literal(value); }
+    std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
+        return c.starts_with('-') ? fmt::format("{} * {} - {}", a, b, c.substr(1))
+                                  : fmt::format("{} * {} + {}", a, b, c);
+    }
+    /// By bits: a comparison with 0 would take -0 for +0.
+    std::string copy_sign(const std::string& size, const std::string& sign) const override {
+        return fmt::format(
+            "uintBitsToFloat((floatBitsToUint({}) & 0x7fffffffu) | (floatBitsToUint({}) & 0x80000000u))",
+            size, sign);
+    }
+
+  private:
+    std::string signal_;
+};
+
+std::string function_name(const Unit& unit, const Kernel& kernel) {
+    return fmt::format("zonal_{}_{}{}", unit.name, kernel.variant.empty() ? "" : kernel.variant + "_",
+                       kernel.name);
+}
+
+std::string signature(const Unit& unit, const Kernel& kernel, const GlslSyntax& syntax) {
+    std::string text = fmt::format("void {}(", function_name(unit, kernel));
+    for (const graph::Array& array : kernel.inputs)
+        text += fmt::format("{} {}[{}], ", syntax.type_of(array.kind), array.name, array.size);
+    return text + fmt::format("out {} {}[{}])", syntax.type_of(kernel.output.kind), kernel.output.name,
+                              kernel.output.size);
+}
+
+std::string print_function(const Unit& unit, const Kernel& kernel, bool has_channels) {
+    const GlslSyntax syntax(has_channels);
+    std::string body;
+    if (has_channels && !kernel.for_channels.empty())
+        body =
+            fmt::format("    zonal_{}_{}(R, f, {});\n", unit.name, kernel.for_channels, kernel.output.name);
+    else
+        body = print_statements(kernel, syntax, 4);
+    return fmt::format("{} {{\n{}}}\n", signature(unit, kernel, syntax), body);
+}
+
+std::string print_kernel(const Unit& unit, Kernel kernel) {
+    if (kernel.output.name == "out") kernel.output.name = "o";  // a word of the language
+    std::string text = "\n";
+    for (const auto& lines : {purpose_lines(kernel), precondition_lines(kernel), source_lines(kernel)})
+        for (const std::string& line : lines) text += "// " + line + "\n";
+    text += print_function(unit, kernel, false);
+    if (kernel.uses(Kind::signal)) text += print_function(unit, kernel, true);
+    return text;
+}
+
+}  // namespace
+
+std::string print_glsl(const Unit& unit) {
+    std::string text;
+    for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
+    text +=
+        "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index "
+        "l(l+1)+m; a "
+        "vec3\n// holds three channels.\n";
+    for (const Kernel& kernel : unit.kernels) text += print_kernel(unit, kernel);
+    return text;
+}
+
+}  // namespace zonal::emit

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "emit/unit.hpp"
+
+namespace zonal::emit {
+
+/// Prints a unit as GLSL functions for desktop versions from 4.50 and ES 3.00 alike: no #version, no globals,
+/// no fma, no precise. Every kernel of a signal has an overload on vec3, three channels.
+std::string print_glsl(const Unit& unit);
+
+}  // namespace zonal::emit

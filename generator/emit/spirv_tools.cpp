@@ -1,0 +1,44 @@
+#include "emit/spirv_tools.hpp"
+
+#include <fmt/format.h>
+
+#include <spirv-tools/optimizer.hpp>
+#include <stdexcept>
+
+namespace zonal::emit {
+
+namespace {
+
+spv_target_env environment(SpirvUse use) {
+    return use == SpirvUse::vulkan_1_1 ? SPV_ENV_VULKAN_1_1 : SPV_ENV_UNIVERSAL_1_3;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> assemble(const std::string& text, SpirvUse use) {
+    spvtools::SpirvTools tools(environment(use));
+    std::string message;
+    tools.SetMessageConsumer(
+        [&](spv_message_level_t, const char*, const spv_position_t& position, const char* what) {
+            message += fmt::format("line {}: {}\n", position.line + 1, what);
+        });
+    std::vector<std::uint32_t> module;
+    if (!tools.Assemble(text, &module) || !tools.Validate(module))
+        throw std::logic_error("SPIR-V is not valid: " + message);
+    return module;
+}
+
+std::string optimize_spirv(const std::string& text, SpirvUse use) {
+    // A fresh optimizer every time: a second run of one object gives other bytes.
+    spvtools::Optimizer optimizer(environment(use));
+    optimizer.RegisterPerformancePasses();
+    std::vector<std::uint32_t> module = assemble(text, use);
+    std::string optimized;
+    if (!optimizer.Run(module.data(), module.size(), &module) ||
+        !spvtools::SpirvTools(environment(use))
+             .Disassemble(module, &optimized, SPV_BINARY_TO_TEXT_OPTION_NO_HEADER))
+        throw std::logic_error("SPIRV-Tools cannot optimize a module that it found valid");
+    return optimized;
+}
+
+}  // namespace zonal::emit
