@@ -9,7 +9,7 @@ namespace zonal::exact {
 BandFactorization factorize_band(int l, const std::vector<Direction<Real>>& directions) {
     BandFactorization result;
     result.band = l;
-    const Matrix<Real> y = band_matrix<Real>(l, directions);
+    const Matrix<Real> y = band_matrix<Real>(l, lobes_of_band(l, directions));
     const Eigen::FullPivLU<Matrix<Real>> lu(y);
     // A double has room for conditions up to 1e16; what is worse is singular for every purpose here.
     const Eigen::JacobiSVD<Matrix<double>> svd(y.cast<double>());
@@ -19,19 +19,8 @@ BandFactorization factorize_band(int l, const std::vector<Direction<Real>>& dire
                                                              : std::numeric_limits<double>::infinity();
     if (!std::isfinite(result.condition)) return result;
     result.a_hat = lu.inverse();
-    for (Real& entry : result.a_hat.reshaped()) {
-        if (abs(entry) < kZeroThreshold) {
-            entry = 0;
-            ++result.zeros;
-        }
-    }
+    result.zeros = set_small_to_zero(result.a_hat);
     return result;
-}
-
-std::vector<BandFactorization> factorize_order(int order, const std::vector<Direction<Real>>& directions) {
-    std::vector<BandFactorization> bands;
-    for (int l = 0; l < order; ++l) bands.push_back(factorize_band(l, directions));
-    return bands;
 }
 
 }  // namespace zonal::exact

@@ -20,7 +20,4 @@ struct BandFactorization {
 /// Factorizes band `l` with the first 2l+1 of `directions` (unit). Source: Nowrouzezahrai et al., eq. 7.
 BandFactorization factorize_band(int l, const std::vector<Direction<Real>>& directions);
 
-/// All bands 0 … order-1 with shared lobes (section 6). Precondition: at least 2*order-1 directions.
-std::vector<BandFactorization> factorize_order(int order, const std::vector<Direction<Real>>& directions);
-
 }  // namespace zonal::exact

@@ -30,8 +30,7 @@ Matrix<Real> quarter_turn(int l) {
     std::vector<Direction<Real>> turned;
     for (const Direction<Real>& w : directions) turned.emplace_back(w(0), -w(2), w(1));
     Matrix<Real> x = band_matrix<Real>(l, directions).partialPivLu().solve(band_matrix<Real>(l, turned));
-    for (Real& entry : x.reshaped())
-        if (abs(entry) < kZeroThreshold) entry = 0;
+    set_small_to_zero(x);
     return x;
 }
 

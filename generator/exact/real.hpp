@@ -21,4 +21,15 @@ using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 template <class S>
 using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
+/// Makes entries below `kZeroThreshold` exact zeros; returns how many are zero.
+inline int set_small_to_zero(Matrix<Real>& matrix) {
+    int zeros = 0;
+    for (Real& entry : matrix.reshaped())
+        if (abs(entry) < kZeroThreshold) {
+            entry = 0;
+            ++zeros;
+        }
+    return zeros;
+}
+
 }  // namespace zonal::exact

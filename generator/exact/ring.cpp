@@ -41,17 +41,11 @@ std::vector<Direction<Real>> Ring::directions() const {
 BandFactorization Ring::factorize(int l) const {
     BandFactorization result;
     result.band = l;
-    Matrix<Real> y(count, 2 * l + 1);
     const std::vector<Direction<Real>> lobes = directions();
-    for (int d = 0; d < count; ++d) y.row(d) = evaluate_band<Real>(l, lobes[d]).transpose();
+    const Matrix<Real> y = band_matrix<Real>(l, lobes);
     const Vector<Real> squared_norms = y.colwise().squaredNorm();
     result.a_hat = squared_norms.cwiseInverse().asDiagonal() * y.transpose();
-    for (Real& entry : result.a_hat.reshaped()) {
-        if (abs(entry) < kZeroThreshold) {
-            entry = 0;
-            ++result.zeros;
-        }
-    }
+    result.zeros = set_small_to_zero(result.a_hat);
     result.condition =
         std::sqrt(static_cast<double>(Real(squared_norms.maxCoeff() / squared_norms.minCoeff())));
     return result;

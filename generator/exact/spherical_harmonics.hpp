@@ -2,6 +2,8 @@
 
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "exact/real.hpp"
@@ -41,13 +43,18 @@ Vector<S> evaluate_band(int l, const Direction<S>& direction) {
     return values;
 }
 
-/// Y_l: row d holds the band's values at lobe d, for the first 2l+1 of `directions`.
+/// Y_l: row d holds the band's values at direction d.
 template <class S>
-Matrix<S> band_matrix(int l, const std::vector<Direction<S>>& directions) {
-    const int size = 2 * l + 1;
-    Matrix<S> matrix(size, size);
-    for (int d = 0; d < size; ++d) matrix.row(d) = evaluate_band<S>(l, directions[d]).transpose();
+Matrix<S> band_matrix(int l, std::type_identity_t<std::span<const Direction<S>>> directions) {
+    Matrix<S> matrix(directions.size(), 2 * l + 1);
+    for (int d = 0; d < matrix.rows(); ++d) matrix.row(d) = evaluate_band<S>(l, directions[d]).transpose();
     return matrix;
+}
+
+/// The directions that band l uses of those that bands share: the first 2l+1.
+template <class S>
+std::span<const Direction<S>> lobes_of_band(int l, const std::vector<Direction<S>>& directions) {
+    return std::span(directions).first(2 * l + 1);
 }
 
 }  // namespace zonal::exact

@@ -49,10 +49,8 @@ Range weight_range(const LobeSet& lobes, int array, int l) {
     return {array, lobes.weight_start(l), static_cast<int>(lobes.lobes_of[l].size())};
 }
 
-bool is_ring(const LobeSet& lobes) { return lobes.lobes_of[0].size() > 1; }
-
 std::string weight_layout(const LobeSet& lobes) {
-    if (is_ring(lobes)) {
+    if (lobes.is_ring) {
         const std::size_t count = lobes.lobes_of[0].size();
         return fmt::format("band l at {0}*l, lobe d at {0}*l + d, d = 0 .. {1} around the ring", count,
                            count - 1);
@@ -84,17 +82,16 @@ void build_band_product(Kernel& kernel, const LobeSet& lobes, int l, const exact
     graph::SharedSums sums = shared_sums(kernel, matrix, in);
     for (int i = 0; i < matrix.rows(); ++i) {
         kernel.graph.set_scope(fmt::format("b{}_{}{}", l, result_name, i));
-        kernel.store(out + i, sums.output(i), is_ring(lobes) ? 0 : l);
+        kernel.store(out + i, sums.output(i), lobes.is_ring ? 0 : l);
     }
 }
 
 /// Y_l of a band's lobes, exact zeros where it vanishes.
 exact::Matrix<Real> expansion(const LobeSet& lobes, int l) {
-    exact::Matrix<Real> y(lobes.lobes_of[l].size(), band_size(l));
-    for (int d = 0; d < y.rows(); ++d)
-        y.row(d) = exact::evaluate_band<Real>(l, lobes.directions[lobes.lobes_of[l][d]]).transpose();
-    for (Real& entry : y.reshaped())
-        if (abs(entry) < exact::kZeroThreshold) entry = 0;
+    std::vector<exact::Direction<Real>> directions;
+    for (const int d : lobes.lobes_of[l]) directions.push_back(lobes.directions[d]);
+    exact::Matrix<Real> y = exact::band_matrix<Real>(l, directions);
+    exact::set_small_to_zero(y);
     return y;
 }
 
@@ -285,8 +282,9 @@ void build_band(Kernel& kernel, const LobeSet& lobes, int l, std::vector<LobeHar
 }  // namespace
 
 LobeSet LobeSet::shared(int order, const std::vector<exact::Direction<Real>>& directions) {
-    LobeSet set{order, directions, {}, exact::factorize_order(order, directions)};
+    LobeSet set{order, false, directions, {}, {}};
     for (int l = 0; l < order; ++l) {
+        set.bands.push_back(exact::factorize_band(l, directions));
         set.lobes_of.emplace_back(band_size(l));
         std::iota(set.lobes_of[l].begin(), set.lobes_of[l].end(), 0);
     }
@@ -295,7 +293,7 @@ LobeSet LobeSet::shared(int order, const std::vector<exact::Direction<Real>>& di
 
 LobeSet LobeSet::ring(int order) {
     const exact::Ring ring = exact::best_ring(order);
-    LobeSet set{order, ring.directions(), {}, {}};
+    LobeSet set{order, true, ring.directions(), {}, {}};
     std::vector<int> all(ring.count);
     std::iota(all.begin(), all.end(), 0);
     for (int l = 0; l < order; ++l) {
@@ -401,7 +399,7 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
     kernel.output = signal_array(lobes, "out");
     const Matrix3 given = rotation_rows(kernel);
     kernel.store(0, kernel.input(1, 0), 0);
-    if (lobes.order == 3 && !is_ring(lobes)) {
+    if (lobes.order == 3 && !lobes.is_ring) {
         // One band to turn: six lobes as a tensor cost less than an orthonormal matrix.
         build_band_1(kernel, given);
         build_band_2_tensor(kernel, given, lobes);

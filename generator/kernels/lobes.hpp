@@ -10,6 +10,8 @@ namespace zonal::kernels {
 /// The lobes of an order: directions at 50 digits and the exact factorization of every band by some of them.
 struct LobeSet {
     int order = 0;
+    /// Every band uses all lobes: more than its 2l+1 coefficients, so that its weights lie elsewhere.
+    bool is_ring = false;
     std::vector<exact::Direction<exact::Real>> directions;  ///< unit
     std::vector<std::vector<int>> lobes_of;                 ///< of bands 0 … order-1: which directions
     std::vector<exact::BandFactorization> bands;            ///< 0 … order-1

@@ -11,9 +11,14 @@ namespace {
 
 using graph::Kernel;
 
-std::vector<Kernel> lobe_kernels(const LobeSet& lobes, const std::string& variant) {
+using Builder = Kernel (*)(const LobeSet&);
+const std::vector<Builder> kProducts{build_factorize, build_expand, build_resample, build_lobes};
+const std::vector<Builder> kAll{build_factorize, build_expand, build_resample, build_lobes, build_rotate_zhf};
+
+std::vector<Kernel> lobe_kernels(const LobeSet& lobes, const std::string& variant,
+                                 const std::vector<Builder>& builders) {
     std::vector<Kernel> kernels;
-    for (const auto build : {build_factorize, build_expand, build_resample, build_lobes, build_rotate_zhf}) {
+    for (const Builder build : builders) {
         kernels.push_back(graph::optimize(build(lobes)));
         kernels.back().variant = variant;
     }
@@ -28,13 +33,11 @@ int instructions(const std::vector<Kernel>& kernels, const std::string& name) {
 /// The products of lobes of each band's own, where factorizing or resampling by them costs less than by
 /// shared ones. Not `rotate_zhf`: where nothing is shared between bands, turning costs more.
 std::vector<Kernel> per_band_kernels(const LobeSet& lobes, const std::vector<Kernel>& shared) {
-    std::vector<Kernel> own = lobe_kernels(lobes, "per_band");
+    const std::vector<Kernel> own = lobe_kernels(lobes, "per_band", kProducts);
     const auto costs_less = [&](const char* name) {
         return instructions(own, name) < instructions(shared, name);
     };
-    if (!costs_less("factorize") && !costs_less("resample")) return {};
-    std::erase_if(own, [](const Kernel& kernel) { return kernel.name == "rotate_zhf"; });
-    return own;
+    return costs_less("factorize") || costs_less("resample") ? own : std::vector<Kernel>{};
 }
 
 }  // namespace
@@ -45,12 +48,12 @@ std::vector<Kernel> build_order(int order, const OrderLobeSets& lobes) {
         kernels.insert(kernels.end(), more.begin(), more.end());
     };
     if (lobes.shared) {
-        std::vector<Kernel> shared = lobe_kernels(*lobes.shared, "");
+        std::vector<Kernel> shared = lobe_kernels(*lobes.shared, "", kAll);
         for (Kernel& kernel : shared) kernel.needs_lobes = true;
         append(shared);
         if (lobes.per_band) append(per_band_kernels(*lobes.per_band, shared));
     }
-    if (order >= kSmallestLobeOrder) append(lobe_kernels(LobeSet::ring(order), "stable"));
+    if (order >= kSmallestLobeOrder) append(lobe_kernels(LobeSet::ring(order), "stable", kAll));
     return kernels;
 }
 

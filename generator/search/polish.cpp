@@ -19,7 +19,8 @@ std::vector<Real> residuals_of(const Problem& problem, const AngledSet& lobes, c
     const auto directions = directions_of(lobes);
     std::vector<exact::Matrix<Real>> a_hats;
     for (const int l : problem.bands) {
-        const Eigen::FullPivLU<exact::Matrix<Real>> lu(exact::band_matrix<Real>(l, directions));
+        const Eigen::FullPivLU<exact::Matrix<Real>> lu(
+            exact::band_matrix<Real>(l, exact::lobes_of_band(l, directions)));
         if (!lu.isInvertible()) return {};
         a_hats.push_back(lu.inverse());
     }

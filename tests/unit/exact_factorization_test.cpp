@@ -48,13 +48,9 @@ TEST(Factorization, coplanar_lobes_are_singular_in_band_1) {
 
 TEST(Factorization, bands_of_an_order_use_the_first_lobes) {
     const auto directions = spiral(7);
-    const auto bands = factorize_order(4, directions);
-    ASSERT_EQ(bands.size(), 4);
-    for (int l = 0; l < 4; ++l) {
-        EXPECT_EQ(bands[l].band, l);
-        EXPECT_EQ(bands[l].a_hat,
+    for (int l = 0; l < 4; ++l)
+        EXPECT_EQ(factorize_band(l, directions).a_hat,
                   factorize_band(l, {directions.begin(), directions.begin() + 2 * l + 1}).a_hat);
-    }
 }
 
 }  // namespace
