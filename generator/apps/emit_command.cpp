@@ -11,6 +11,7 @@
 #include "emit/file.hpp"
 #include "emit/glsl.hpp"
 #include "emit/spirv.hpp"
+#include "emit/wgsl.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
 #include "user_error.hpp"
@@ -63,6 +64,10 @@ const std::map<std::string, Language>& languages() {
              return {{unit.file_stem + ".glsl", emit::print_glsl(unit)}};
          }},
         {"spirv", spirv_files},
+        {"wgsl",
+         [](const emit::Unit& unit, const Options&) -> Files {
+             return {{unit.file_stem + ".wgsl", emit::print_wgsl(unit)}};
+         }},
     };
     return all;
 }
@@ -141,7 +146,7 @@ void add_emit_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
     const auto options = std::make_shared<Options>();
     command->add_option("--order", options->order, "number of bands")->required();
-    command->add_option("--language", options->language, "cpp, glsl or spirv")->required();
+    command->add_option("--language", options->language, "cpp, glsl, spirv or wgsl")->required();
     command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");
     command->add_option("--out", options->out, "folder to write into (default: generated/LANGUAGE)");
     command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");

@@ -25,8 +25,7 @@ class GlslSyntax : public Syntax {
     }
     std::string constant(const graph::Number& value) const override { return float_literal(value); }
     std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
-        return c.starts_with('-') ? fmt::format("{} * {} - {}", a, b, c.substr(1))
-                                  : fmt::format("{} * {} + {}", a, b, c);
+        return product_and_sum(a, b, c);
     }
     /// By bits: a comparison with 0 would take -0 for +0.
     std::string copy_sign(const std::string& size, const std::string& sign) const override {
@@ -40,8 +39,7 @@ class GlslSyntax : public Syntax {
 };
 
 std::string function_name(const Unit& unit, const Kernel& kernel) {
-    return fmt::format("zonal_{}_{}{}", unit.name, kernel.variant.empty() ? "" : kernel.variant + "_",
-                       kernel.name);
+    return fmt::format("zonal_{}_{}", unit.name, plain_name(kernel));
 }
 
 std::string signature(const Unit& unit, const Kernel& kernel, const GlslSyntax& syntax) {

@@ -381,11 +381,6 @@ std::string banner_of(const Unit& unit, const Kernel& kernel) {
            comment(precondition_lines(kernel));
 }
 
-/// rotate_zhf, stable_rotate_zhf
-std::string plain_name(const Kernel& kernel) {
-    return kernel.variant.empty() ? kernel.name : fmt::format("{}_{}", kernel.variant, kernel.name);
-}
-
 /// The kernel whose graph a form of this one prints: that for channels, where it has another.
 const Kernel& graph_for(const Unit& unit, const Kernel& kernel, const Form& form) {
     if (!form.has_channels || kernel.for_channels.empty()) return kernel;

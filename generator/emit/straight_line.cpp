@@ -94,6 +94,11 @@ class StatementPrinter {
 
 }  // namespace
 
+std::string product_and_sum(const std::string& a, const std::string& b, const std::string& c) {
+    return c.starts_with('-') ? fmt::format("{} * {} - {}", a, b, c.substr(1))
+                              : fmt::format("{} * {} + {}", a, b, c);
+}
+
 std::string print_statements(const Kernel& kernel, const Syntax& syntax, int indentation) {
     return StatementPrinter(kernel, syntax, indentation).print();
 }

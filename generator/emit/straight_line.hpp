@@ -20,6 +20,9 @@ class Syntax {
     virtual std::string copy_sign(const std::string& size, const std::string& sign) const = 0;
 };
 
+/// a * b + c where a language has nothing better; a negated c is subtracted.
+std::string product_and_sum(const std::string& a, const std::string& b, const std::string& c);
+
 /// The body of a kernel: the rotation is read first, then one statement a value, in the order of the
 /// schedule.
 std::string print_statements(const graph::Kernel& kernel, const Syntax& syntax, int indentation);

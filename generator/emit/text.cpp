@@ -62,6 +62,10 @@ std::string domain_text(const graph::Kernel& kernel) {
     return kernel.needs_proper_rotation ? "det R = +1" : "det R = +1 or -1";
 }
 
+std::string plain_name(const graph::Kernel& kernel) {
+    return kernel.variant.empty() ? kernel.name : fmt::format("{}_{}", kernel.variant, kernel.name);
+}
+
 std::vector<std::string> purpose_lines(const graph::Kernel& kernel) {
     std::vector<std::string> lines;
     std::istringstream summary(kernel.summary);

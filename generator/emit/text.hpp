@@ -15,6 +15,9 @@ std::vector<std::string> banner_lines(const Unit& unit);
 /// The rotations that a kernel is right for: "det R = +1".
 std::string domain_text(const graph::Kernel& kernel);
 
+/// A kernel's name where a language has no namespaces: rotate_zhf, stable_rotate_zhf.
+std::string plain_name(const graph::Kernel& kernel);
+
 /// What a kernel computes and what its arguments hold, for the comment in front of it, without comment signs.
 std::vector<std::string> purpose_lines(const graph::Kernel& kernel);
 
