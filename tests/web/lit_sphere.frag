@@ -1,4 +1,4 @@
-// Shades a ball, half matte and half mirror, by an SH light that every fragment turns for itself.
+// Shades a ball, matte under a mirroring glaze, by an SH light that every fragment turns for itself.
 //
 // Compiled behind `#version 300 es`, `precision highp float;`, the text of generated/glsl/orderNN.glsl and
 //     #define ORDER           3 or 4

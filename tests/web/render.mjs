@@ -15,7 +15,7 @@ run(async () => {
     await page.waitForFunction(() => window.result);
     const { renderer, uniforms, values } = await page.evaluate(() => window.result);
     writeFileSync(path.join(out, "values.f32"), Buffer.from(values, "base64"));
-    await page.locator("#pictures").screenshot({ path: path.join(out, "lit_sphere.png") });
+    await page.locator("#pictures").screenshot({ path: path.join(out, "lit_sphere.png"), omitBackground: true });
     console.log(`rendered by ${renderer} (${uniforms} uniform vectors a fragment shader)`);
   });
 });

@@ -17,14 +17,15 @@ namespace zonal::web {
 namespace {
 
 constexpr int kSize = 128;
-constexpr int kTurns = 6;
+constexpr int kTurns = 4;
+constexpr double kStepDegrees = 80;  // no symmetry of a cube
 /// Linear value at which the mean of the map is shown.
 constexpr double kMiddleGrey = 0.2;
 
 }  // namespace
 
 Scene scene_of_map(const std::filesystem::path& map) {
-    Scene scene{.size = kSize, .orders = {3, 4}, .matte = 0.5, .mirror = 0.5};
+    Scene scene{.size = kSize, .orders = {3, 4}, .matte = 0.75, .mirror = 0.25};
     const int order = std::ranges::max(scene.orders);
     for (const auto& value : project(order, read_environment_map(map))) {
         scene.light.push_back(value.cast<float>());
@@ -34,7 +35,7 @@ Scene scene_of_map(const std::filesystem::path& map) {
         static_cast<float>(kMiddleGrey * std::sqrt(4 * std::numbers::pi) * 3 / (mean.r + mean.g + mean.b));
     const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized();
     for (int turn = 0; turn < kTurns; ++turn) {
-        const double angle_rad = 2 * std::numbers::pi * turn / kTurns;
+        const double angle_rad = turn * kStepDegrees * std::numbers::pi / 180;
         scene.rotations.emplace_back(Eigen::AngleAxisd(angle_rad, axis));
     }
     return scene;
