@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Renders a ball under a turning light in headless Chromium (WebGL2, the committed GLSL of orders 3 and 4) and compares
-# every pixel with C++ and with the oracle. Installs Chromium, Node.js and npm where they are missing.
+# Compiles generated/glsl as GLSL ES 3.00 in headless Chromium, renders a ball under a turning light by orders 3 and 4 in
+# WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium, Node.js and npm where missing.
 #   bash cmake/check_web.sh [BUILD_FOLDER, default build/release]
 # Writes build/check_web/: lit_sphere.png (orders downwards, turns to the right), scene.json, values.f32.
 # Exit status not zero, and what differs, when a pixel is off by more than rounding explains.

@@ -46,7 +46,7 @@ export async function run(main) {
   try {
     await main();
   } catch (error) {
-    console.error(`error: ${error.message}`);
+    console.error(`error: ${error.message.split("\n")[0]}`);  // the rest is where in the page
     process.exitCode = 1;
   }
 }

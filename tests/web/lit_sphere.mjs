@@ -19,6 +19,14 @@ void main() {
     colour = vec4(srgb * linear.a, linear.a);
 }`;
 
+function context(size) {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = size;
+  const gl = canvas.getContext("webgl2", { preserveDrawingBuffer: true });
+  if (!gl) throw new Error("the browser gives no WebGL2 context: check its flags and its list of blocked GPUs");
+  return gl;
+}
+
 async function text(url) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: found status ${response.status}, wanted the file`);
@@ -29,7 +37,10 @@ function compile(gl, kind, source, name) {
   const shader = gl.createShader(kind);
   gl.shaderSource(shader, source);
   gl.compileShader(shader);
-  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(`${name}: ${gl.getShaderInfoLog(shader)}`);
+  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
+    const messages = gl.getShaderInfoLog(shader).split("\n").slice(0, 3);  // the others follow from the first
+    throw new Error(`${name}: ${messages.join("; ")}`);
+  }
   return shader;
 }
 
@@ -111,10 +122,7 @@ export async function litSphere(sceneUrl, parent) {
   const kernels = {};
   for (const order of scene.orders) kernels[order] = await text(`../../generated/glsl/order0${order}.glsl`);
 
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = scene.size;
-  const gl = canvas.getContext("webgl2", { preserveDrawingBuffer: true });
-  if (!gl) throw new Error("the browser gives no WebGL2 context: check its flags and its list of blocked GPUs");
+  const gl = context(scene.size);
   if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("EXT_color_buffer_float is missing");
   parent.style.gridTemplateColumns = `repeat(${scene.rotations.length}, ${scene.size}px)`;
 
@@ -126,10 +134,13 @@ precision highp float;
 #define ORDER ${order}
 #define ROTATE zonal_order${order}_rotate
 #define SHOWS_PROBE ${showsProbe}
+#line 1 1
 ${kernels[order]}
+#line 1 2
 ${shading}`;
-    const probe = link(gl, source(1), `order ${order}, turned light`);
-    const ball = link(gl, source(0), `order ${order}, ball`);
+    const files = `(1: order0${order}.glsl, 2: lit_sphere.frag)`;
+    const probe = link(gl, source(1), `order ${order}, turned light ${files}`);
+    const ball = link(gl, source(0), `order ${order}, ball ${files}`);
     const probeTarget = floatTarget(gl, order * order, 1);
     const ballTarget = floatTarget(gl, scene.size, scene.size);
     for (const rotation of scene.rotations) {
@@ -150,4 +161,18 @@ ${shading}`;
   const renderer = gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
   const uniforms = gl.getParameter(gl.MAX_FRAGMENT_UNIFORM_VECTORS);
   return { renderer, uniforms, values: base64(new Uint8Array(values.buffer)) };
+}
+
+/// Compiles each file of functions as GLSL ES 3.00, every function of it; the first that does not is an error.
+export async function compileAll(urls) {
+  const gl = context(1);
+  for (const url of urls) {
+    const source = `#version 300 es
+precision highp float;
+#line 1 1
+${await text(url)}
+out vec4 colour;
+void main() { colour = vec4(1.0); }`;
+    gl.deleteShader(compile(gl, gl.FRAGMENT_SHADER, source, url));
+  }
 }
