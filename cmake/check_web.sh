@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Compiles generated/glsl as GLSL ES 3.00 in headless Chromium, renders a ball under a turning light by orders 3 and 4 in
+# WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium, Node.js and npm where missing.
+#   bash cmake/check_web.sh [BUILD_FOLDER, default build/release]
+# Writes build/check_web/: lit_sphere.png (orders downwards, turns to the right), scene.json, values.f32.
+# Exit status not zero, and what differs, when a pixel is off by more than rounding explains.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$(realpath "${1:-$root/build/release}")
+work=$root/build/check_web
+
+packages=(chromium)
+command -v node >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm) # a Node.js from elsewhere brings its own, and refuses Debian's
+bash "$root/cmake/install_packages.sh" "${packages[@]}"
+chromium=$(command -v chromium)
+
+judge=$build/bin/zonal-lit-sphere
+if [ ! -x "$judge" ]; then
+  echo "$judge: found nothing, wanted the program; build it: cmake --build $build --target zonal-lit-sphere" >&2
+  exit 1
+fi
+
+# npm installs beside the scripts that import: copies, so that the sources stay clean.
+mkdir -p "$work"
+rm -f "$work/values.f32" "$work/lit_sphere.png"
+cp "$root"/tests/web/{*.mjs,package.json,package-lock.json} "$work/"
+if ! (cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1; then
+  cat "$work/npm.log" >&2
+  echo "npm ci failed: playwright-core could not be installed from the npm registry" >&2
+  exit 1
+fi
+
+"$judge" scene --map "$root/tests/data/studio.exr" --out "$work/scene.json"
+timeout 120 node "$work/render.mjs" "$chromium" "$root" "$work/scene.json" "$work" || {
+  echo "Chromium did not render tests/web/lit_sphere.html (status $?; 124: not within two minutes)" >&2
+  exit 1
+}
+"$judge" compare "$work/scene.json" "$work/values.f32"
+echo "the browser draws what C++ computes: $work/lit_sphere.png"
