@@ -2,7 +2,7 @@
 # Searches of any length for the bands and orders whose goal is not reached yet, in turn: the seed and then the
 # weights change with every round, and the best table of each is kept and taken up again in every third round.
 # A line a search: what it found, its options, the best so far and the goal. Stop with Ctrl-C.
-# Usage: nice bash tests/bench/long_search.sh FOLDER [SECONDS_EACH [ZONAL_GEN]] | tee -a tests/bench/long_search.log
+# Usage: nice bash tests/bench/long_search.sh FOLDER [SECONDS_EACH [ZONAL_GEN [FIRST_SEED]]] | tee -a tests/bench/long_search.log
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 best=${1:?the folder for the best tables}
@@ -16,7 +16,10 @@ search() { # OPTION NUMBER GOAL_IN_NONZEROS OPTIONS...: keeps the table if it ha
   local use=$1 number=$2 goal=$3 found nonzeros known
   shift 3
   local table=$best/${use#--}$number.json record=$best/${use#--}$number.nonzeros
-  found=$("$gen" search "$use" "$number" --seconds "$seconds" "$@" --out "$best/new.json" 2>&1 >"$best/path")
+  found=$("$gen" search "$use" "$number" --seconds "$seconds" "$@" --out "$best/new.json" 2>&1 >"$best/path") || {
+    printf '%s %d: nothing [%s]\n' "${use#--}" "$number" "$*"
+    return
+  }
   nonzeros=$(nonzeros_of "$found")
   known=$(cat "$record" 2>/dev/null || echo 1000000)
   if [ "$nonzeros" -lt "$known" ]; then
@@ -29,7 +32,7 @@ search() { # OPTION NUMBER GOAL_IN_NONZEROS OPTIONS...: keeps the table if it ha
 
 weights=("--multiplication-weight 0.02 --condition-weight 0.1" "" "--multiplication-weight 0 --condition-weight 0.5")
 odd_rings=("" "--rings 4 6 12" "--rings 6 8" "--rings 3 6 9" "--rings 8 10 12")
-for ((seed = 1;; ++seed)); do
+for ((seed = ${4:-1};; ++seed)); do
   some=${weights[$((seed % 3))]}
   rings=${odd_rings[$((seed % 5))]}
   for goal in 5:46 7:92 9:166 11:264 15:499 17:637; do
