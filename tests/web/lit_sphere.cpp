@@ -197,6 +197,7 @@ void compare(const std::filesystem::path& scene_path, const std::filesystem::pat
         }
         is_met = judge.report() && is_met;
     }
+    std::fflush(stdout);  // before the error
     if (!is_met)
         throw std::runtime_error("the browser's pictures differ from C++ by more than rounding explains");
 }

@@ -15,7 +15,7 @@ uniform float rotation[9];           // row-major, f'(w) = f(R^T w)
 uniform vec3 light[ORDER * ORDER];   // RGB, index l(l+1)+m
 uniform float matte;
 uniform float mirror;
-uniform float size;                  // of the picture, in pixels
+uniform float pixel;                 // width of one, 2 / size: a power of two, so that products with it are exact
 out vec4 colour;
 
 // Real, orthonormal, no Condon-Shortley sign, z polar.
@@ -43,7 +43,7 @@ void evaluate_basis(vec3 w, out float basis[ORDER * ORDER]) {
 #endif
 }
 
-float cosine_factor(int i) { return i == 0 ? 1.0 : i < 4 ? 2.0 / 3.0 : i < 9 ? 0.25 : 0.0; }
+float cosine_factor(int i) { return i == 0 ? 1.0 : i < 4 ? 0.66666666667 : i < 9 ? 0.25 : 0.0; }
 
 void main() {
     vec3 turned[ORDER * ORDER];
@@ -51,7 +51,7 @@ void main() {
 #if SHOWS_PROBE
     colour = vec4(turned[int(gl_FragCoord.x)], 1.0);
 #else
-    vec2 p = (2.0 * gl_FragCoord.xy - size) / size;
+    vec2 p = pixel * gl_FragCoord.xy - 1.0;
     float square = dot(p, p);
     if (square >= 1.0) {
         colour = vec4(0.0);

@@ -91,7 +91,7 @@ function setScene(gl, program, scene, order, rotation) {
   gl.uniform3fv(at("light"), scene.light.slice(0, order * order).flat());
   gl.uniform1f(at("matte"), scene.matte);
   gl.uniform1f(at("mirror"), scene.mirror);
-  gl.uniform1f(at("size"), scene.size);
+  gl.uniform1f(at("pixel"), 2 / scene.size);
 }
 
 function show(gl, program, target, exposure, parent) {

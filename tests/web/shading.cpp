@@ -1,15 +1,14 @@
 // The picture of tests/web/lit_sphere.frag in high precision, and how far that shader may be from it.
 //
-// Rounding, u = 2^-24: GLSL ES 3.00 (section 4.5.1) rounds + - * correctly (a b + c may be fused, which is no
-// worse), gives 1 / sqrt within 2 ULP and the division after it within 2.5, so sqrt within 4.5 ULP = 9 u.
-//   directions  : y, z, y^2 + z^2 and 1 - 2 (y^2 + z^2) are exact (size is a power of two); the normal's x
-//   has the
-//                 root's 9 u, the mirrored y and z one product more: 10 u
-//   basis       : of degree at most 3 in these: 30 u; its own longest way from a coordinate to the value is
-//   the
-//                 constant, square, times 3, minus, times coordinate, times constant: 6 u
-//   weight      : a_l, times matte, times basis, plus: 4 u
-//   sum         : one product, at most N^2 additions
+// Rounding, u = 2^-24, by Vulkan's "Precision of Individual Operations", which SwiftShader under ANGLE keeps:
+// + - * are correctly rounded (to nearest here; a b + c may be fused, which is no worse), a / b is within 2.5
+// ULP and inversesqrt within 2, so sqrt, which may be one over the other, within 4.5 ULP = 9 u.
+//   directions : y, z, y^2 + z^2 and 1 - 2 (y^2 + z^2) are exact (size is a power of two); the normal's x has
+//                the root's 9 u, the mirrored y and z one product more: 10 u
+//   basis      : of degree at most 3 in these: 30 u; its own longest way from a coordinate to the value is
+//                the constant, square, times 3, minus, times coordinate, times constant: 6 u
+//   weight     : a_l, times matte, times basis, plus: 4 u
+//   sum        : one product, at most N^2 additions
 // Every count is relative to the same expression with all its terms made positive.
 
 #include "web/shading.hpp"
