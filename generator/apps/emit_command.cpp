@@ -10,8 +10,10 @@
 #include "emit/cpp.hpp"
 #include "emit/file.hpp"
 #include "emit/glsl.hpp"
+#include "emit/glsl_tailored.hpp"
 #include "emit/spirv.hpp"
 #include "emit/wgsl.hpp"
+#include "kernels/registry.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
 #include "user_error.hpp"
@@ -50,22 +52,45 @@ Files spirv_files(const emit::Unit& unit, const Options& options) {
     return files;
 }
 
-using Language = std::function<Files(const emit::Unit&, const Options&)>;
+const graph::Kernel& kernel_named(const std::vector<graph::Kernel>& kernels, const std::string& name) {
+    return *std::ranges::find(kernels, name, &graph::Kernel::name);
+}
+
+/// Bands 0 and 1 are those of an order-2 signal: they turn by its kernel, exactly, and need no table.
+emit::TailoredRotation tailored_rotation(const kernels::LobeSet& lobes) {
+    constexpr int kLowBands = 2;
+    emit::TailoredRotation rotation;
+    rotation.rotate_low = kernel_named(kernels::build_order(kLowBands, {}), "rotate");
+    rotation.rotate_low.name = "rotate_low";
+    rotation.rotate_low.summary = "Rotates bands 0 and 1: f'(w) = f(R^T w).";
+    for (int l = kLowBands; l < lobes.order; ++l)
+        rotation.bands.push_back({l, lobes.weight_start(l), lobes.lobes_of[l]});
+    return rotation;
+}
+
+Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
+    Files files{{unit.file_stem + ".glsl", emit::print_glsl(unit)}};
+    if (order.lobes)
+        files.push_back({unit.file_stem + "_tailored.glsl",
+                         emit::print_glsl_tailored(unit, tailored_rotation(order.lobes->set))});
+    return files;
+}
+
+using Language = std::function<Files(const emit::Unit&, const OrderKernels&, const Options&)>;
 
 /// Adding a language is one entry here.
 const std::map<std::string, Language>& languages() {
     static const std::map<std::string, Language> all{
         {"cpp",
-         [](const emit::Unit& unit, const Options&) -> Files {
+         [](const emit::Unit& unit, const OrderKernels&, const Options&) -> Files {
              return {{"zonal/" + unit.file_stem + ".hpp", emit::print_cpp(unit)}};
          }},
-        {"glsl",
-         [](const emit::Unit& unit, const Options&) -> Files {
-             return {{unit.file_stem + ".glsl", emit::print_glsl(unit)}};
-         }},
-        {"spirv", spirv_files},
+        {"glsl", [](const emit::Unit& unit, const OrderKernels& order,
+                    const Options&) { return glsl_files(unit, order); }},
+        {"spirv", [](const emit::Unit& unit, const OrderKernels&,
+                     const Options& options) { return spirv_files(unit, options); }},
         {"wgsl",
-         [](const emit::Unit& unit, const Options&) -> Files {
+         [](const emit::Unit& unit, const OrderKernels&, const Options&) -> Files {
              return {{unit.file_stem + ".wgsl", emit::print_wgsl(unit)}};
          }},
     };
@@ -78,11 +103,6 @@ const Language& find_language(const std::string& name) {
     std::string known;
     for (const auto& [key, language] : languages()) known += (known.empty() ? "" : ", ") + key;
     throw UserError(fmt::format("--language: found '{}', wanted one of: {}", name, known));
-}
-
-const graph::Kernel& kernel_named(const OrderKernels& order, const std::string& name) {
-    return *std::find_if(order.kernels.begin(), order.kernels.end(),
-                         [&](const graph::Kernel& kernel) { return kernel.name == name; });
 }
 
 std::vector<std::string> tables_of(const OrderKernels& order) {
@@ -118,10 +138,10 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
         unit.kernels, [](const graph::Kernel& kernel) { return kernel.variant == "per_band"; });
     unit.constants.push_back(
         {"kHasPerBandLobes", has_per_band ? 1 : 0, "1 where lobes of each band's own are here, else 0"});
-    const graph::Kernel& prepare = kernel_named(order, "prepare");
+    const graph::Kernel& prepare = kernel_named(order.kernels, "prepare");
     unit.constants.push_back({"kScalars", prepare.output.size, "Values that `prepare` makes"});
     const bool takes_mirrors =
-        !kernel_named(order, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
+        !kernel_named(order.kernels, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
     unit.constants.push_back({"kTakesMirrors", takes_mirrors ? 1 : 0,
                               "1 where `rotate` of one channel and `prepare` take det R = -1, else 0"});
     return unit;
@@ -134,7 +154,7 @@ void run(const Options& options) {
             fmt::format("--optimize, --binary: found with --language {}, wanted spirv", options.language));
     const OrderKernels order = build_order_kernels(options.order, options.table);
     const fs::path folder = options.out.empty() ? "generated/" + options.language : options.out;
-    for (const emit::File& file : language(make_unit(options, order), options)) {
+    for (const emit::File& file : language(make_unit(options, order), order, options)) {
         write_file_atomically(folder / file.path, file.content);
         fmt::print("{}\n", (folder / file.path).string());
     }

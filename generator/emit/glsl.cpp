@@ -61,7 +61,9 @@ std::string print_function(const Unit& unit, const Kernel& kernel, bool has_chan
     return fmt::format("{} {{\n{}}}\n", signature(unit, kernel, syntax), body);
 }
 
-std::string print_kernel(const Unit& unit, Kernel kernel) {
+}  // namespace
+
+std::string print_glsl_kernel(const Unit& unit, Kernel kernel) {
     if (kernel.output.name == "out") kernel.output.name = "o";  // a word of the language
     std::string text = "\n";
     for (const auto& lines : {purpose_lines(kernel), precondition_lines(kernel), source_lines(kernel)})
@@ -71,8 +73,6 @@ std::string print_kernel(const Unit& unit, Kernel kernel) {
     return text;
 }
 
-}  // namespace
-
 std::string print_glsl(const Unit& unit) {
     std::string text;
     for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
@@ -80,7 +80,7 @@ std::string print_glsl(const Unit& unit) {
         "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index "
         "l(l+1)+m; a "
         "vec3\n// holds three channels.\n";
-    for (const Kernel& kernel : unit.kernels) text += print_kernel(unit, kernel);
+    for (const Kernel& kernel : unit.kernels) text += print_glsl_kernel(unit, kernel);
     return text;
 }
 

@@ -10,4 +10,7 @@ namespace zonal::emit {
 /// no fma, no precise. Every kernel of a signal has an overload on vec3, three channels.
 std::string print_glsl(const Unit& unit);
 
+/// One of them: its comment and its functions.
+std::string print_glsl_kernel(const Unit& unit, graph::Kernel kernel);
+
 }  // namespace zonal::emit

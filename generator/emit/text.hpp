@@ -5,12 +5,23 @@
 #include <vector>
 
 #include "emit/unit.hpp"
+#include "graph/counts.hpp"
 
 namespace zonal::emit {
 
 /// The banner every generated file opens with, one line an entry, without comment signs: the fixed keys
 /// command, table, basis, cost, bound, source in that order.
 std::vector<std::string> banner_lines(const Unit& unit);
+
+/// The first of them: command, table and basis.
+std::vector<std::string> opening_lines(const Unit& unit);
+
+/// Appends a key of the banner and its values, one a line: "key     : first", "          second" …
+void append_key(std::vector<std::string>& lines, const std::string& key,
+                const std::vector<std::string>& values);
+
+/// "12 mul 3 add 4 fma 0 other"
+std::string counts_text(const graph::Counts& counts);
 
 /// The rotations that a kernel is right for: "det R = +1".
 std::string domain_text(const graph::Kernel& kernel);

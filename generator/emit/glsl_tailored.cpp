@@ -1,0 +1,128 @@
+// Prints signal-tailored rotation as GLSL: the lobes turned by the inverse rotation, one texture fetch for
+// each lobe of each tabulated band, and the sparse product. Source: Nowrouzezahrai, Simari, Fiume 2012,
+// eq. 11.
+//
+// All bands are looked up in the same scaled direction, so that a compiler finds face and coordinates of a
+// lobe once for all bands. The scale keeps bilinear filters within a face: see zonal/signal_tables.hpp.
+#include "emit/glsl_tailored.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emit/glsl.hpp"
+#include "emit/text.hpp"
+#include "graph/counts.hpp"
+
+namespace zonal::emit {
+
+namespace {
+
+/// zonal::kFaceScale of the runtime, 31/32: exact in float.
+const char* const kFaceScale = "0.96875";
+
+const graph::Kernel& kernel_named(const Unit& unit, const std::string& full_name) {
+    return *std::ranges::find_if(
+        unit.kernels, [&](const graph::Kernel& kernel) { return kernel.full_name() == full_name; });
+}
+
+int fetches(const TailoredRotation& rotation) {
+    std::size_t count = 0;
+    for (const auto& band : rotation.bands) count += band.lobes.size();
+    return static_cast<int>(count);
+}
+
+std::vector<std::string> cost_texts(const Unit& unit, const TailoredRotation& rotation) {
+    const auto counts = [](const graph::Kernel& kernel) {
+        return counts_text(graph::count_operations(kernel).total());
+    };
+    return {fmt::format("rotate_tailored {} texture fetches and the scaling of {} directions;",
+                        fetches(rotation), kernel_named(unit, "lobes").output.size / 3),
+            fmt::format("  lobes {};", counts(kernel_named(unit, "lobes"))),
+            fmt::format("  a channel, resample {}, of which", counts(kernel_named(unit, "resample"))),
+            fmt::format("  bands below {} are not used; rotate_low {}", rotation.bands.front().band,
+                        counts(rotation.rotate_low))};
+}
+
+std::string banner(const Unit& unit, const TailoredRotation& rotation) {
+    std::vector<std::string> lines = opening_lines(unit);
+    append_key(lines, "cost", cost_texts(unit, rotation));
+    append_key(lines, "bound", {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
+    append_key(lines, "source", kernel_named(unit, "resample").sources);
+    std::string text;
+    for (const std::string& line : lines) text += "// " + line + "\n";
+    return text;
+}
+
+/// A direction whose bilinear filter stays within a face, whatever level is looked up.
+std::string print_face_direction(const Unit& unit) {
+    return fmt::format(
+        "\n"
+        "// The direction in which stretched faces hold the value for w: its two smaller components times\n"
+        "// 31/32, so that a filter never reaches across an edge of the cube.\n"
+        "vec3 zonal_{}_face_direction(vec3 w) {{\n"
+        "    vec3 size = abs(w);\n"
+        "    float largest = max(size.x, max(size.y, size.z));\n"
+        "    return mix(w, {} * w, lessThan(size, vec3(largest)));\n"
+        "}}\n",
+        unit.name, kFaceScale);
+}
+
+std::string print_samples(const TailoredRotation& rotation) {
+    std::string text;
+    for (int i = 0; i < rotation.rotate_low.output.size; ++i)
+        text += fmt::format("    samples[{}] = vec3(0.0);\n", i);
+    int layer = 0;
+    for (const auto& band : rotation.bands) {
+        text += fmt::format("    // Band {}.\n", band.band);
+        for (std::size_t d = 0; d < band.lobes.size(); ++d)
+            text += fmt::format("    samples[{}] = textureLod(bands, vec4(w{}, {}.0), levels[{}]).rgb;\n",
+                                band.first_sample + static_cast<int>(d), band.lobes[d], layer, layer);
+        ++layer;
+    }
+    return text;
+}
+
+std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
+    const int directions = kernel_named(unit, "lobes").output.size;
+    const int coefficients = kernel_named(unit, "resample").output.size;
+    const int low = rotation.rotate_low.output.size;
+    std::string text = fmt::format(
+        "\n"
+        "// Rotates a static signal of three channels that is tabulated: f'(w) = f(R^T w), signal-tailored.\n"
+        "// R : 9 values, row-major, of a rotation or a mirror.\n"
+        "// low : {low} values, the coefficients of bands 0 and 1, which turn without a table.\n"
+        "// bands : layer k holds band k + 2 on stretched faces (zonal/signal_tables.hpp);\n"
+        "//   filters linear within a level, nearest or linear between levels.\n"
+        "// levels : the mip level of each layer, whole numbers.\n"
+        "// o : {coefficients} values, index l(l+1)+m.\n"
+        "// Error: that stated beside the tables. Cost: see the banner. Source: eq. 11.\n"
+        "void zonal_{name}_rotate_tailored(float R[9], vec3 low[{low}], highp samplerCubeArray bands,\n"
+        "        float levels[{layers}], out vec3 o[{coefficients}]) {{\n"
+        "    float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);\n"
+        "    float w[{directions}];\n"
+        "    zonal_{name}_lobes(inverse, w);\n",
+        fmt::arg("name", unit.name), fmt::arg("low", low), fmt::arg("layers", rotation.bands.size()),
+        fmt::arg("coefficients", coefficients), fmt::arg("directions", directions));
+    for (int d = 0; 3 * d < directions; ++d)
+        text += fmt::format("    vec3 w{} = zonal_{}_face_direction(vec3(w[{}], w[{}], w[{}]));\n", d,
+                            unit.name, 3 * d, 3 * d + 1, 3 * d + 2);
+    text += fmt::format("    vec3 samples[{}];\n{}", coefficients, print_samples(rotation));
+    text += fmt::format("    zonal_{}_resample(samples, o);\n", unit.name);
+    text += fmt::format("    vec3 turned[{}];\n    zonal_{}_rotate_low(R, low, turned);\n", low, unit.name);
+    for (int i = 0; i < low; ++i) text += fmt::format("    o[{0}] = turned[{0}];\n", i);
+    return text + "}\n";
+}
+
+}  // namespace
+
+std::string print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation) {
+    return banner(unit, rotation) +
+           fmt::format(
+               "//\n// Functions for GLSL 4.50 and ES 3.20, highp; to be put behind those of {}.glsl.\n",
+               unit.file_stem) +
+           print_glsl_kernel(unit, rotation.rotate_low) + print_face_direction(unit) +
+           print_rotation(unit, rotation);
+}
+
+}  // namespace zonal::emit

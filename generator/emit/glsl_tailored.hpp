@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/unit.hpp"
+
+namespace zonal::emit {
+
+/// How a signal that is tabulated in cube maps is sampled: what signal-tailored rotation adds to the kernels
+/// `lobes` and `resample` of a unit.
+struct TailoredRotation {
+    /// A band that is looked up: its expansion is a layer of the cube-map array, in the order of this list.
+    struct SampledBand {
+        int band = 0;
+        int first_sample = 0;    ///< of the band, in the input of `resample`
+        std::vector<int> lobes;  ///< looked up, one a sample, by number in the output of `lobes`
+    };
+    std::vector<SampledBand> bands;
+    /// Turns the bands that are not looked up: (R, their coefficients) -> the first elements of the output.
+    graph::Kernel rotate_low;
+};
+
+/// Prints `rotate_tailored` of a unit that has the kernels `lobes` and `resample`: GLSL 4.50 and ES 3.20
+/// functions to be put behind what `print_glsl` prints of that unit. A file of its own, because ES 3.00 has
+/// no cube-map arrays.
+std::string print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation);
+
+}  // namespace zonal::emit

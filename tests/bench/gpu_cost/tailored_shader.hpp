@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace zonal::gpu_cost {
+
+/// A compute shader around zonal_orderN_rotate_tailored, with the memory of the direct modules: rotations at
+/// binding 0, the four coefficients of bands 0 and 1 at 1, output at 2, three channels tightly packed; the
+/// cube-map array at 3 and its levels at 4. `kernels` and `tailored` are the texts of orderNN.glsl and
+/// orderNN_tailored.glsl.
+std::string tailored_compute_shader(int order, const std::string& kernels, const std::string& tailored);
+
+}  // namespace zonal::gpu_cost

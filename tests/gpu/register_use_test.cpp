@@ -1,0 +1,75 @@
+// What a compiler for GPUs makes of the committed SPIR-V: nothing spills, and few registers are held. The
+// null device of Mesa's RADV says so; its numbers are the same on every run and change with Mesa's version.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "bench/gpu_cost/shader_file.hpp"
+#include "gpu/pipeline_statistics.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using zonal::gpu::Device;
+using zonal::gpu::PipelineStatistics;
+
+/// Statistics of every committed compute module, by its name (order04_rotate_rgb).
+std::map<std::string, PipelineStatistics> statistics_of_all(const std::string& family) {
+    const Device device({.radv_family = family, .wants_executable_properties = true});
+    std::map<std::string, PipelineStatistics> all;
+    for (const fs::directory_entry& entry : fs::directory_iterator(ZONAL_GENERATED_SPIRV)) {
+        const std::string name = entry.path().stem().string();
+        if (name.find('_') == std::string::npos) continue;  // functions with linkage: no entry point
+        all[name] = statistics_of(device, zonal::gpu_cost::read_shader(entry.path()));
+    }
+    return all;
+}
+
+/// What holds all of a matrix of N (4N² - 1) / 3 entries or 2N - 1 lobes of N bands and cannot do with fewer.
+const std::set<std::string> kLarge{"order06_blocks", "order06_stable_rotate_zhf"};
+
+class RegisterUse : public testing::TestWithParam<const char*> {
+  protected:
+    static const std::map<std::string, PipelineStatistics>& all() {
+        static std::map<std::string, std::map<std::string, PipelineStatistics>> by_family;
+        auto [known, is_new] = by_family.try_emplace(GetParam());
+        if (is_new) known->second = statistics_of_all(GetParam());
+        return known->second;
+    }
+
+    /// Of the order's modules for one channel, those whose arithmetic may be contracted.
+    static void expect_registers_at_most(unsigned limit, int order) {
+        const std::string stem = fmt::format("order{:02}_", order);
+        ASSERT_TRUE(all().contains(stem + "rotate"));
+        for (const auto& [name, statistics] : all()) {
+            if (!name.starts_with(stem) || name.ends_with("_rgb") || name.ends_with("_precise")) continue;
+            if (kLarge.contains(name)) continue;
+            EXPECT_LE(statistics.vgprs, limit) << name;
+        }
+    }
+};
+
+TEST_P(RegisterUse, no_kernel_up_to_order_6_spills) {
+    ASSERT_GE(all().size(), 200u) << "of four orders; found fewer in " << ZONAL_GENERATED_SPIRV;
+    for (const auto& [name, statistics] : all()) {
+        EXPECT_EQ(statistics.spilled_vgprs, 0u) << name;
+        EXPECT_EQ(statistics.spilled_sgprs, 0u) << name;
+    }
+}
+
+TEST_P(RegisterUse, a_scalar_signal_of_order_4_holds_64_registers_at_most) {
+    expect_registers_at_most(64, 4);
+}
+
+TEST_P(RegisterUse, a_scalar_signal_of_order_6_holds_128_registers_at_most) {
+    expect_registers_at_most(128, 6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, RegisterUse, testing::Values("navi21", "vega10"),
+                         [](const auto& family) { return std::string(family.param); });
+
+}  // namespace
