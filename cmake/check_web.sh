@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Compiles generated/glsl as GLSL ES 3.00 in headless Chromium, renders a ball under a turning light by orders 3 and 4 in
-# WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium, Node.js and npm where missing.
+# Compiles generated/glsl as GLSL ES 3.00 and WGSL of orders 3, 6 and 10 in headless Chromium, renders a ball under a
+# turning light by orders 3 and 4 in WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium,
+# Node.js and npm where missing.
 #   bash cmake/check_web.sh [BUILD_FOLDER, default build/release]
 # Writes build/check_web/: lit_sphere.png (orders downwards, turns to the right), scene.json, values.f32.
 # Exit status not zero, and what differs, when a pixel is off by more than rounding explains.
@@ -30,6 +31,14 @@ if ! (cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1; then
   echo "npm ci failed: playwright-core could not be installed from the npm registry" >&2
   exit 1
 fi
+
+for order in 3 6 10; do
+  "$build/bin/zonal-gen" emit --order $order --language wgsl --out "$work/wgsl" >"$work/wgsl.log"
+done
+timeout 120 node "$work/check_wgsl.mjs" "$chromium" "$work"/wgsl/*.wgsl || {
+  echo "Chromium's WebGPU does not take what generator/emit/wgsl.cpp prints (status $?)" >&2
+  exit 1
+}
 
 "$judge" scene --map "$root/tests/data/studio.exr" --out "$work/scene.json"
 timeout 120 node "$work/render.mjs" "$chromium" "$root" "$work/scene.json" "$work" || {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -77,6 +78,80 @@ TEST(Emit, lines_have_at_most_100_columns_and_no_place_or_time) {
         for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
         EXPECT_THAT(lines.str(), Not(HasSubstr(folder.string())));
     }
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path().filename());
+    std::ranges::sort(files);
+    return files;
+}
+
+TEST(Emit, every_shader_is_as_committed) {
+    for (const std::string language : {"glsl", "spirv"}) {
+        const fs::path folder = fresh_folder(language),
+                       committed = fs::path(ZONAL_SOURCE_DIR) / "generated" / language;
+        ASSERT_EQ(zonal_gen(fmt::format("emit --order 3 --language {} --out '{}'", language, folder.string()))
+                      .status,
+                  0);
+        const std::vector<std::string> files = files_in(folder);
+        EXPECT_GE(files.size(), 2u);
+        for (const std::string& file : files) EXPECT_EQ(read(folder / file), read(committed / file)) << file;
+    }
+}
+
+TEST(Emit, glsl_has_nothing_that_a_dialect_lacks) {
+    const std::string text = read(fs::path(ZONAL_SOURCE_DIR) / "generated/glsl/order04.glsl");
+    EXPECT_THAT(text, AllOf(HasSubstr("void zonal_order4_rotate(float R[9], float f[16], out float o[16]) {"),
+                            HasSubstr("void zonal_order4_rotate(float R[9], vec3 f[16], out vec3 o[16]) {")));
+    EXPECT_THAT(text, AllOf(Not(HasSubstr("#version")), Not(HasSubstr("fma(")), Not(HasSubstr("precise "))));
+}
+
+TEST(Emit, a_precise_module_differs_by_its_decorations_alone) {
+    const fs::path folder = fs::path(ZONAL_SOURCE_DIR) / "generated/spirv";
+    const auto without_decorations = [&](const char* file, int& decorations) {
+        std::istringstream lines(read(folder / file));
+        std::string rest;
+        for (std::string line; std::getline(lines, line);)
+            line.find("NoContraction") == std::string::npos ? rest += line + "\n" : (++decorations, rest);
+        return rest;
+    };
+    int plain = 0, precise = 0;
+    EXPECT_EQ(without_decorations("order04_rotate.spvasm", plain),
+              without_decorations("order04_rotate_precise.spvasm", precise));
+    EXPECT_LT(plain, 10);
+    EXPECT_GT(precise, 118);  // instructions of rotate
+}
+
+TEST(Emit, optimized_modules_are_valid_and_the_same_every_time) {
+    const fs::path first = fresh_folder("optimized"), second = fresh_folder("optimized_again");
+    for (const fs::path& folder : {first, second})
+        ASSERT_EQ(zonal_gen(fmt::format("emit --order 3 --language spirv --optimize --binary --out '{}'",
+                                        folder.string()))
+                      .status,
+                  0);
+    const std::string text = read(first / "order03_rotate.spvasm");
+    EXPECT_EQ(text, read(second / "order03_rotate.spvasm"));
+    EXPECT_NE(text, read(fs::path(ZONAL_SOURCE_DIR) / "generated/spirv/order03_rotate.spvasm"));
+    const std::string binary = read(first / "order03_rotate.spv");
+    ASSERT_GE(binary.size(), 20u);
+    EXPECT_EQ(binary.substr(0, 4), "\x03\x02\x23\x07");  // the magic number of SPIR-V, little-endian
+}
+
+TEST(Emit, options_of_spirv_are_refused_elsewhere) {
+    const Outcome result = zonal_gen("emit --order 3 --language glsl --optimize");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("--optimize"), HasSubstr("glsl"), HasSubstr("wanted spirv")));
+}
+
+TEST(Emit, wgsl_has_a_function_for_channels_too) {
+    const fs::path folder = fresh_folder("wgsl");
+    ASSERT_EQ(zonal_gen(fmt::format("emit --order 4 --language wgsl --out '{}'", folder.string())).status, 0);
+    const std::string text = read(folder / "order04.wgsl");
+    EXPECT_THAT(text,
+                HasSubstr("fn zonal_order4_rotate(R: array<f32, 9>, f: array<f32, 16>) -> array<f32, 16> {"));
+    EXPECT_THAT(text, HasSubstr("fn zonal_order4_rotate_rgb(R: array<f32, 9>, f: array<vec3<f32>, 16>)"));
+    EXPECT_THAT(text, Not(HasSubstr("fma(")));
 }
 
 TEST(Emit, an_order_out_of_range_is_named) {
