@@ -19,7 +19,7 @@ for order in "$@"; do
   for kernel in rotate rotate_accurate rotate_zhf; do
     grep -q "^__device__ void $kernel(" "$folder/order.hpp" || continue
     # What loops over tables is left out: those are arrays of the host.
-    sed -n "/^__device__ void $kernel(/,/^}/p" "$folder/order.hpp" | grep -q Runs && continue
+    sed -n "/^__device__ void $kernel(/,/^}/p" "$folder/order.hpp" | grep Runs >/dev/null && continue
     cat >"$folder/kernel.cu" <<CODE
 #include "order.hpp"
 extern "C" __global__ void turn(const float* R, const float* f, float* out, unsigned count) {
