@@ -64,60 +64,67 @@ class BackwardScheduler {
 
     std::vector<Statement> run(const std::vector<Statement>& group) {
         for (const Statement& statement : group) {
-            (statement.is_store ? ready_ : waiting_statements_).push_back(statement);
-            for (const Id operand : operands_of(kernel_, statement)) ++readers_[operand];
+            Item item{statement, operands_of(kernel_, statement)};
+            for (const Id operand : item.operands) ++readers_[operand];
+            if (statement.is_store)
+                ready_.push_back(std::move(item));
+            else
+                waiting_.emplace(statement.node, std::move(item));
         }
-        for (const Statement& statement : waiting_statements_) computed_.insert(statement.node);
         std::vector<Statement> backward;
-        while (!ready_.empty()) {
-            backward.push_back(take_best());
-            place(backward.back());
-        }
+        while (!ready_.empty()) backward.push_back(place(take_best()));
         std::reverse(backward.begin(), backward.end());
         return backward;
     }
 
   private:
-    Statement take_best() {
+    struct Item {
+        Statement statement;
+        std::vector<Id> operands;
+    };
+
+    Item take_best() {
         auto best = ready_.begin();
         int least = std::numeric_limits<int>::max();
         for (auto item = ready_.begin(); item != ready_.end(); ++item) {
             const int growth = growth_of(*item);
-            const bool wins_tie = tie_ == Tie::found_last || item->node >= best->node;
+            const bool wins_tie = tie_ == Tie::found_last || item->statement.node >= best->statement.node;
             if (growth > least || (growth == least && !wins_tie)) continue;
             least = growth;
             best = item;
         }
-        const Statement statement = *best;
+        Item item = std::move(*best);
         ready_.erase(best);
-        return statement;
+        return item;
     }
 
     int width_of(Id id) const { return width(kernel_.graph[id], channels_); }
 
     /// How many more registers are held before the statement than after it.
-    int growth_of(const Statement& statement) const {
-        int growth = statement.is_store ? 0 : -width_of(statement.node);
-        for (const Id operand : operands_of(kernel_, statement))
+    int growth_of(const Item& item) const {
+        int growth = item.statement.is_store ? 0 : -width_of(item.statement.node);
+        for (const Id operand : item.operands)
             if (!is_live_[operand]) growth += width_of(operand);
         return growth;
     }
 
-    void place(const Statement& statement) {
-        if (!statement.is_store) is_live_[statement.node] = false;
-        for (const Id operand : operands_of(kernel_, statement)) {
+    Statement place(const Item& item) {
+        if (!item.statement.is_store) is_live_[item.statement.node] = false;
+        for (const Id operand : item.operands) {
             is_live_[operand] = true;
-            if (--readers_[operand] == 0 && computed_.contains(operand))
-                ready_.push_back({false, operand, 0});
+            if (--readers_[operand] > 0) continue;
+            const auto found = waiting_.find(operand);
+            if (found != waiting_.end()) ready_.push_back(std::move(found->second));
         }
+        return item.statement;
     }
 
     const Kernel& kernel_;
     int channels_;
     Tie tie_;
     std::vector<bool>& is_live_;
-    std::vector<Statement> waiting_statements_, ready_;
-    std::set<Id> computed_;
+    std::vector<Item> ready_;
+    std::map<Id, Item> waiting_;  ///< for their readers
     std::map<Id, int> readers_;
 };
 
