@@ -81,7 +81,7 @@ TEST_P(Accuracy, plain_modules_are_within_the_published_bounds) {
     std::vector<std::shared_ptr<Batch>> batches;
     std::vector<accuracy::Contestant<float>> contestants;
     for (const ReferenceKernel& kernel : reference_kernels(order)) {
-        if (!kernel.turns_signal() && kernel.name != "prepare" && kernel.name != "blocks") continue;
+        if (!kernel.makes_turns()) continue;
         const std::string published = kernel.name == "prepare"             ? "apply"
                                       : kernel.name == "stable_rotate_zhf" ? "stable::rotate_zhf"
                                                                            : kernel.name;

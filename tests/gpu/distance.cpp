@@ -81,8 +81,7 @@ std::vector<float> matrix_of(const ReferenceKernel& kernel) {
 
 std::string distance(int order, const ReferenceKernel& kernel, const Vectors& vectors,
                      const std::vector<float>& got, const std::vector<float>& wanted, int channels) {
-    const bool makes_turn = kernel.name == "prepare" || kernel.name == "blocks";
-    const bool is_turn = kernel.turns_signal() || makes_turn;
+    const bool is_turn = kernel.makes_turns(), is_first_step = is_turn && !kernel.turns_signal();
     const banner::Bound bound =
         is_turn ? banner::bound(order, name_of_bound(order, kernel.name, channels)) : banner::Bound{};
     const std::vector<float> matrix = is_turn ? std::vector<float>{} : matrix_of(kernel);
@@ -104,7 +103,7 @@ std::string distance(int order, const ReferenceKernel& kernel, const Vectors& ve
                 if (determinant(R) < 0) continue;
                 const double allowed = 2 * (bound.float_bound + bound.excess * orthonormality_error(R));
                 double squares = 0;
-                if (makes_turn) {
+                if (is_first_step) {
                     for (const float value : probe) squares += static_cast<double>(value) * value;
                     const auto a = turned(order, kernel, got.data() + at, probe),
                                b = turned(order, kernel, wanted.data() + at, probe);

@@ -24,8 +24,9 @@ struct ReferenceKernel {
     void (*run_channels)(const float* rotation, const Channels* input, Channels* output) = nullptr;
 
     bool has_signal() const { return input_size > 0; }
-    /// Whether the input is an SH vector that the kernel turns.
     bool turns_signal() const { return has_signal() && rotation_size > 0; }
+    /// Turns a signal, alone or with the step after it: there is a bound of its error.
+    bool makes_turns() const { return turns_signal() || name == "prepare" || name == "blocks"; }
 };
 
 /// Every kernel of an order; throws std::out_of_range for an order that is not compiled in.
