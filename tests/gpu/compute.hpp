@@ -40,9 +40,9 @@ struct Binding {
 
 struct PipelineOptions {
     std::vector<std::uint32_t> storage_buffers{0, 1, 2};  ///< their bindings
-    std::vector<std::uint32_t> sampled_images;            ///< their bindings
+    std::vector<std::uint32_t> sampled_images = {};       ///< their bindings
     std::uint32_t workgroup_size = 64;                    ///< SpecId 0
-    vk::PipelineCreateFlags flags;                        ///< for example eCaptureStatisticsKHR
+    vk::PipelineCreateFlags flags = {};                   ///< for example eCaptureStatisticsKHR
 };
 
 /// A compute module's entry point `main`. One push constant: a uint at offset 0, how many invocations work.

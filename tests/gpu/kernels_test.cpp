@@ -1,0 +1,101 @@
+// Every emitted kernel on the Vulkan device beside the generated C++ kernel that was compiled without fused
+// instructions: random and hard rotations, hard signals, NaN, vectors in place, a last workgroup not full.
+//
+// Every kernel of orders 2 to 10 runs as a precise and as a plain module (those that turn: accuracy_test).
+// GLSL and three channels: every kernel up to order 6. Above, where lavapipe compiles for minutes, GLSL of
+// one channel leaves out rotate_accurate, blocks, rotate_zhf and the kernels of the ring, and three channels
+// are those of rotate and resample, unless ZONAL_GPU_TESTS=all is in the environment.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "gpu/shader_source.hpp"
+#include "gpu/vectors.hpp"
+
+namespace zonal::gpu {
+namespace {
+
+/// Whether GLSL, or three channels, of a kernel are run.
+bool is_run(int order, const ReferenceKernel& kernel, int channels) {
+    const char* wanted = std::getenv("ZONAL_GPU_TESTS");
+    if (channels == 3 && !kernel.has_signal()) return false;
+    if (order <= 6 || (wanted != nullptr && std::string(wanted) == "all")) return true;
+    if (channels == 3) return kernel.name == "rotate" || kernel.name == "resample";
+    return kernel.name != "rotate_accurate" && kernel.name != "blocks" && kernel.name != "rotate_zhf" &&
+           !kernel.name.starts_with("stable_");
+}
+
+class Kernels : public testing::TestWithParam<int> {
+  protected:
+    int order() const { return GetParam(); }
+    Words module(const std::string& name) const {
+        return assembled(read_text(spirv_folder() / fmt::format("{}_{}.spvasm", order_stem(order()), name)));
+    }
+    /// Bit by bit where the device computes as it is told, else within the kernel's bound.
+    void expect_within_bounds(const std::string& form, const ReferenceKernel& kernel, const Words& words,
+                              int channels) const {
+        const ModuleRunner runner(words, channels * kernel.output_size);
+        const Vectors vectors = test_vectors(order(), kernel, channels);
+        const auto got = runner.run(vectors), wanted = expected_results(kernel, vectors, channels);
+        EXPECT_EQ(distance(order(), kernel, vectors, got, wanted, channels), "")
+            << form << ", order " << order() << ", " << kernel.name;
+    }
+};
+
+TEST_P(Kernels, are_those_of_cpp) {
+    std::set<std::string> expected{order_stem(order()) + ".spvasm"}, found;
+    for (const ReferenceKernel& kernel : reference_kernels(order())) {
+        const std::string stem = fmt::format("{}_{}", order_stem(order()), kernel.name);
+        for (const char* form : {"", "_precise"}) expected.insert(stem + form + ".spvasm");
+        if (kernel.has_signal()) expected.insert(stem + "_rgb.spvasm");
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(spirv_folder())) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(order_stem(order()))) found.insert(name);
+    }
+    EXPECT_EQ(found, expected);
+}
+
+TEST_P(Kernels, precise_modules_give_the_bits_of_cpp) {
+    for (const ReferenceKernel& kernel : reference_kernels(order())) {
+        const ModuleRunner runner(module(kernel.name + "_precise"), kernel.output_size);
+        const Vectors vectors = test_vectors(order(), kernel, 1);
+        ASSERT_NE(vectors.count % 64, 0);
+        const std::vector<float> expected = expected_results(kernel, vectors, 1);
+        EXPECT_EQ(difference(runner.run(vectors), expected, kernel.output_size), "") << kernel.name;
+        if (kernel.input_size != kernel.output_size) continue;
+        EXPECT_EQ(difference(runner.run_in_place(vectors), expected, kernel.output_size), "")
+            << kernel.name << " in place";
+    }
+}
+
+TEST_P(Kernels, plain_modules_are_within_bounds_of_cpp) {
+    for (const ReferenceKernel& kernel : reference_kernels(order()))
+        if (!kernel.makes_turns()) expect_within_bounds("plain", kernel, module(kernel.name), 1);
+}
+
+TEST_P(Kernels, modules_of_three_channels_are_within_bounds_of_cpp) {
+    for (const ReferenceKernel& kernel : reference_kernels(order()))
+        if (is_run(order(), kernel, 3)) expect_within_bounds("rgb", kernel, module(kernel.name + "_rgb"), 3);
+}
+
+TEST_P(Kernels, glsl_functions_are_within_bounds_of_cpp) {
+    EXPECT_NO_THROW(compiled(whole_file_shader(order())));
+    for (const ReferenceKernel& kernel : reference_kernels(order()))
+        if (is_run(order(), kernel, 1))
+            expect_within_bounds("GLSL", kernel, compiled(compute_shader(order(), kernel, 1)), 1);
+}
+
+TEST_P(Kernels, glsl_functions_on_vec3_are_within_bounds_of_cpp) {
+    for (const ReferenceKernel& kernel : reference_kernels(order()))
+        if (is_run(order(), kernel, 3))
+            expect_within_bounds("GLSL vec3", kernel, compiled(compute_shader(order(), kernel, 3)), 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(orders, Kernels, testing::ValuesIn(reference_orders()),
+                         [](const auto& order) { return fmt::format("order_{}", order.param); });
+
+}  // namespace
+}  // namespace zonal::gpu
