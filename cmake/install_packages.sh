@@ -5,7 +5,8 @@ packages=(
   g++ cmake ninja-build pkg-config git
   libeigen3-dev libboost-dev libnlopt-dev libnlopt-cxx-dev libtbb-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libssl-dev libopenexr-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev libhwy-dev
-  spirv-tools spirv-headers
+  spirv-tools spirv-headers spirv-cross glslang-dev glslang-tools
+  libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
 )
 packages+=("$@")
 missing=()

@@ -1,0 +1,20 @@
+// The process's Vulkan device is made before the first test, so that a machine without one is told so in one
+// line, and closed after the last.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "gpu/module_runner.hpp"
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();
+    try {
+        fmt::print("{}\n", zonal::gpu::device_name());
+        const int status = RUN_ALL_TESTS();
+        zonal::gpu::close_device();
+        return status;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return 1;
+    }
+}
