@@ -13,6 +13,7 @@ struct Vectors {
     int count = 0;
     std::vector<float> rotations;  ///< empty where the kernel takes none
     std::vector<float> inputs;     ///< empty where the kernel takes no signal
+    std::vector<float> matrices;   ///< R of each vector, whatever the kernel takes
 };
 
 /// A compute module of this project on the process's Vulkan device.

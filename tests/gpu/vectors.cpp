@@ -50,6 +50,7 @@ Vectors test_vectors(int order, const ReferenceKernel& kernel, int channels) {
     const ReferenceKernel& prepare = reference_kernel(order, "prepare");
     for (std::size_t k = 0; k < matrices.size(); ++k) {
         const std::vector<float> R(matrices[k].begin(), matrices[k].end());
+        vectors.matrices.insert(vectors.matrices.end(), R.begin(), R.end());
         if (kernel.name == "apply") {
             std::vector<float> scalars(prepare.output_size);
             prepare.run(R.data(), nullptr, scalars.data());
@@ -104,21 +105,6 @@ std::string difference(const std::vector<float>& got, const std::vector<float>& 
                        count, got.size(), first / size, first % size, got[first],
                        std::bit_cast<std::uint32_t>(got[first]), wanted[first],
                        std::bit_cast<std::uint32_t>(wanted[first]));
-}
-
-double largest_relative_difference(const std::vector<float>& got, const std::vector<float>& wanted,
-                                   int size) {
-    double largest = 0;
-    for (std::size_t begin = 0; begin < got.size(); begin += size) {
-        double scale = 0, apart = 0;
-        for (std::size_t i = begin; i < begin + size; ++i) {
-            if (std::isnan(got[i]) && std::isnan(wanted[i])) continue;
-            scale = std::max(scale, std::abs(static_cast<double>(wanted[i])));
-            apart = std::max(apart, std::abs(static_cast<double>(got[i]) - wanted[i]));
-        }
-        if (apart > 0) largest = std::max(largest, apart / scale * 0x1p24);
-    }
-    return largest;
 }
 
 }  // namespace zonal::gpu

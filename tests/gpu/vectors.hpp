@@ -18,7 +18,12 @@ std::vector<float> expected_results(const ReferenceKernel& kernel, const Vectors
 /// `size`: floats of one vector.
 std::string difference(const std::vector<float>& got, const std::vector<float>& wanted, int size);
 
-/// The largest |got - wanted| of a vector in units of its largest value's last place (2^-24 of it).
-double largest_relative_difference(const std::vector<float>& got, const std::vector<float>& wanted, int size);
+/// The same where a compiler may have arranged sums anew: empty where every vector is as near as two results
+/// may be that are both within the kernel's bound. For kernels that turn, twice the published bound and
+/// excess of the signal's norm (`prepare` and `blocks`: after the step that they are made for); for those
+/// that are linear in a signal or in R, 2 n 2^-24 |M| |f|, n terms summed in any order. Needs `got` of C++'s
+/// `vectors`.
+std::string distance(int order, const ReferenceKernel& kernel, const Vectors& vectors,
+                     const std::vector<float>& got, const std::vector<float>& wanted, int channels);
 
 }  // namespace zonal::gpu

@@ -1,0 +1,70 @@
+#include "gpu/shader_source.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "gpu/modules.hpp"
+
+namespace zonal::gpu {
+
+namespace {
+
+std::string file_of(int order) { return read_text(glsl_folder() / (order_stem(order) + ".glsl")); }
+
+/// The text of every function of this name: a printed function ends at the first brace at a line's start.
+std::string functions_named(const std::string& file, const std::string& name) {
+    std::string text;
+    const std::string begin = fmt::format("void {}(", name), end = "\n}\n";
+    for (std::size_t at = file.find(begin); at != std::string::npos; at = file.find(begin, at + 1))
+        text += file.substr(at, file.find(end, at) + end.size() - at);
+    return text;
+}
+
+}  // namespace
+
+std::string compute_shader(int order, const ReferenceKernel& kernel, int channels) {
+    const std::string file = file_of(order), name = fmt::format("zonal_order{}_{}", order, kernel.name);
+    const std::string function = functions_named(file, name);
+    if (function.empty()) throw std::runtime_error(fmt::format("order {}: no function {}", order, name));
+
+    const std::string type = channels == 3 && kernel.has_signal() ? "vec3" : "float";
+    std::string declarations, loads, arguments;
+    if (kernel.rotation_size > 0) {
+        declarations += "layout(std430, binding = 0) readonly buffer Rotations { float rotations[]; };\n";
+        loads += fmt::format(
+            "    float R[{0}];\n    for (int i = 0; i < {0}; ++i) R[i] = rotations[int(vector) * {0} + i];\n",
+            kernel.rotation_size);
+        arguments += "R, ";
+    }
+    if (kernel.has_signal()) {
+        declarations += "layout(std430, binding = 1) readonly buffer Inputs { float inputs[]; };\n";
+        loads += fmt::format("    {0} f[{1}];\n    for (int i = 0; i < {1}; ++i)\n", type, kernel.input_size);
+        for (int c = 0; c < channels; ++c)
+            loads += fmt::format("{} inputs[(int(vector) * {} + i) * {} + {}]",
+                                 c == 0 ? fmt::format("        f[i] = {}(", type) : ",", kernel.input_size,
+                                 channels, c);
+        loads += ");\n";
+        arguments += "f, ";
+    }
+    std::string stores = fmt::format("    for (int i = 0; i < {}; ++i) {{\n", kernel.output_size);
+    for (int c = 0; c < channels; ++c)
+        stores += fmt::format("        outputs[(int(vector) * {} + i) * {} + {}] = o[i]{};\n",
+                              kernel.output_size, channels, c, type == "vec3" ? fmt::format("[{}]", c) : "");
+    stores += "    }\n";
+    return "#version 450\n" + functions_named(file, name + "_channels") + function +
+           "layout(local_size_x_id = 0) in;\n"
+           "layout(push_constant) uniform Push { uint count; };\n" +
+           declarations + "layout(std430, binding = 2) buffer Outputs { float outputs[]; };\n" +
+           "void main() {\n"
+           "    uint vector = gl_GlobalInvocationID.x;\n"
+           "    if (vector >= count) return;\n" +
+           loads + fmt::format("    {} o[{}];\n    {}({}o);\n", type, kernel.output_size, name, arguments) +
+           stores + "}\n";
+}
+
+std::string whole_file_shader(int order) {
+    return "#version 450\n" + file_of(order) + "layout(local_size_x = 64) in;\nvoid main() {}\n";
+}
+
+}  // namespace zonal::gpu
