@@ -219,7 +219,7 @@ void check_samples(double texel_rounding) {
         std::vector<std::array<double, 3>> exact;
         for (const Vector3d& w : places) exact.push_back(exact_sample(kOrder, l, signal, w));
         std::set<int> sizes;
-        for (const double share : {2.0, 0.4, 0.1, 0.03}) {
+        for (const double share : {2.0, 0.4, 0.1, 0.05}) {
             const double budget = share * l * l / 25;  // higher bands, larger faces for the same error
             for (const int bits : {4, 8}) {
                 const SignalTableOptions options{.budget = budget, .subtexel_bits = bits};
