@@ -334,11 +334,6 @@ void check_rotations(int order, double budget) {
         largest = std::max(largest, error);
     }
     EXPECT_GT(largest, plan.bound / 100) << "the bound says nothing";
-    std::printf("order %2d budget %.0e %zu-byte texels: face %4d levels", order, budget, 4 * sizeof(T),
-                plan.face_size);
-    for (const int level : plan.levels) std::printf(" %d", level);
-    std::printf("  %.3g MB bound %.2e measured %.2e\n", static_cast<double>(tables.byte_count()) / 1e6,
-                plan.bound, largest);
 }
 
 TEST(SignalTables, whole_rotations_are_within_budget_and_bound) {
