@@ -58,12 +58,15 @@ std::string banner(const Unit& unit, const TailoredRotation& rotation) {
 std::string print_face_direction(const Unit& unit) {
     return fmt::format(
         "\n"
-        "// The direction in which stretched faces hold the value for w: its two smaller components times\n"
-        "// 31/32, so that a filter never reaches across an edge of the cube.\n"
+        "// The direction in which stretched faces hold the value for w: all but its largest component "
+        "times\n"
+        "// 31/32, so that a filter never reaches across an edge of the cube. On an edge one is the "
+        "largest.\n"
         "vec3 zonal_{}_face_direction(vec3 w) {{\n"
         "    vec3 size = abs(w);\n"
-        "    float largest = max(size.x, max(size.y, size.z));\n"
-        "    return mix(w, {} * w, lessThan(size, vec3(largest)));\n"
+        "    bool is_x = size.x >= max(size.y, size.z);\n"
+        "    bool is_y = size.y >= size.z;\n"
+        "    return mix(w, {} * w, bvec3(!is_x, is_x || !is_y, is_x || is_y));\n"
         "}}\n",
         unit.name, kFaceScale);
 }
