@@ -67,12 +67,13 @@ void zonal_order3_rotate_low(float R[9], vec3 f[4], out vec3 o[4]) {
     o[3] = b1_9;
 }
 
-// The direction in which stretched faces hold the value for w: its two smaller components times
-// 31/32, so that a filter never reaches across an edge of the cube.
+// The direction in which stretched faces hold the value for w: all but its largest component times
+// 31/32, so that a filter never reaches across an edge of the cube. On an edge one is the largest.
 vec3 zonal_order3_face_direction(vec3 w) {
     vec3 size = abs(w);
-    float largest = max(size.x, max(size.y, size.z));
-    return mix(w, 0.96875 * w, lessThan(size, vec3(largest)));
+    bool is_x = size.x >= max(size.y, size.z);
+    bool is_y = size.y >= size.z;
+    return mix(w, 0.96875 * w, bvec3(!is_x, is_x || !is_y, is_x || is_y));
 }
 
 // Rotates a static signal of three channels that is tabulated: f'(w) = f(R^T w), signal-tailored.
