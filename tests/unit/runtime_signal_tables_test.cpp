@@ -259,6 +259,45 @@ void resample(int order, const Rgb<float>* samples, Rgb<float>* out) {
     }
 }
 
+/// Â_l times samples that are all off by 1, with the worst of some signs.
+double largest_change(int order, int l) {
+    std::mt19937 random(11);
+    double largest = 0;
+    for (int k = 0; k < 300; ++k) {
+        Signal samples(order * order), out(order * order);
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i) samples[i].r = random() % 2 == 0 ? 1.0f : -1.0f;
+        resample(order, samples.data(), out.data());
+        largest = std::max(largest, norm(out));
+    }
+    return largest;
+}
+
+TEST(SignalTables, a_bands_bound_is_that_of_its_samples_times_what_the_lobes_make_of_it) {
+    constexpr int kOrder = 6;
+    const Signal signal = lighting(kOrder);
+    for (const double budget : {0.05, 0.01}) {
+        const SignalTablePlan plan =
+            zonal::plan_signal_tables<float>(kOrder, signal, {.budget = budget, .subtexel_bits = 6});
+        double sum = 0;
+        for (int l = 2; l < kOrder; ++l) {
+            double peak = 0;
+            for (const Vector3d& w : directions(500)) {
+                const auto [r, g, b] = exact_sample(kOrder, l, signal, w);
+                peak = std::max(peak, std::hypot(r, g, b));
+            }
+            const double expected = largest_change(kOrder, l) * peak *
+                                    sample_bound(l, plan.size_at(plan.levels[l - 2]), 6, 0x1p-24) /
+                                    norm(signal);
+            const double bound = plan.band_bounds[l - 2];
+            EXPECT_GE(bound, expected) << "band " << l;
+            // Maxima from above instead of over some signs and directions.
+            EXPECT_LE(bound, 1.6 * expected) << "band " << l;
+            sum += bound * bound;
+        }
+        EXPECT_NEAR(plan.bound, std::sqrt(sum), 1e-6);
+    }
+}
+
 /// Signal-tailored rotation as the shader does it.
 template <class T>
 Signal rotate_tailored(const SignalTables<T>& tables, const Signal& low, const Eigen::Matrix3f& rotation) {
