@@ -57,11 +57,15 @@ std::string print_function(const Unit& unit, const Kernel& kernel, bool has_chan
         body =
             fmt::format("    zonal_{}_{}(R, f, {});\n", unit.name, kernel.for_channels, kernel.output.name);
     else
-        body = print_statements(kernel, syntax, 4);
+        body = print_glsl_statements(kernel, has_channels, 4);
     return fmt::format("{} {{\n{}}}\n", signature(unit, kernel, syntax), body);
 }
 
 }  // namespace
+
+std::string print_glsl_statements(const Kernel& kernel, bool has_channels, int indentation) {
+    return print_statements(kernel, GlslSyntax(has_channels), indentation);
+}
 
 std::string print_glsl_kernel(const Unit& unit, Kernel kernel) {
     if (kernel.output.name == "out") kernel.output.name = "o";  // a word of the language

@@ -10,6 +10,9 @@ namespace zonal::emit {
 /// no fma, no precise. Every kernel of a signal has an overload on vec3, three channels.
 std::string print_glsl(const Unit& unit);
 
+/// The statements of a kernel; signal values are vec3 where it `has_channels`.
+std::string print_glsl_statements(const graph::Kernel& kernel, bool has_channels, int indentation);
+
 /// One of them: its comment and its functions.
 std::string print_glsl_kernel(const Unit& unit, graph::Kernel kernel);
 

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "gpu/emitted_shaders.hpp"
 #include "gpu/vectors.hpp"
 #include "support/banner.hpp"
 

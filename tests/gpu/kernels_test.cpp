@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "gpu/emitted_shaders.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/vectors.hpp"
 

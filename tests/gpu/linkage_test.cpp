@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "gpu/emitted_shaders.hpp"
 #include "gpu/vectors.hpp"
 
 namespace zonal::gpu {

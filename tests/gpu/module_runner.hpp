@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "gpu/modules.hpp"
 #include "gpu/reference.hpp"
+#include "gpu/shader_modules.hpp"
 
 namespace zonal::gpu {
 

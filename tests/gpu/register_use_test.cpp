@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "bench/gpu_cost/shader_file.hpp"
 #include "gpu/pipeline_statistics.hpp"
+#include "gpu/shader_modules.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ std::map<std::string, PipelineStatistics> statistics_of_all(const std::string& f
     for (const fs::directory_entry& entry : fs::directory_iterator(ZONAL_GENERATED_SPIRV)) {
         const std::string name = entry.path().stem().string();
         if (name.find('_') == std::string::npos) continue;  // functions with linkage: no entry point
-        all[name] = statistics_of(device, zonal::gpu_cost::read_shader(entry.path()));
+        all[name] = statistics_of(device, zonal::gpu::read_shader(entry.path()));
     }
     return all;
 }

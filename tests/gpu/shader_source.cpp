@@ -4,7 +4,8 @@
 
 #include <stdexcept>
 
-#include "gpu/modules.hpp"
+#include "gpu/emitted_shaders.hpp"
+#include "gpu/shader_modules.hpp"
 
 namespace zonal::gpu {
 

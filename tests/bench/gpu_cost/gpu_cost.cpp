@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/gpu_cost/shader_file.hpp"
 #include "bench/gpu_cost/tailored_shader.hpp"
 #include "gpu/pipeline_statistics.hpp"
+#include "gpu/shader_modules.hpp"
 
 namespace {
 
@@ -59,9 +59,10 @@ std::vector<std::uint32_t> read_kernel(const Options& options, int order, const 
             "writes the kernels that the order has",
             file.string(), kernel, order, order, kernel == kTailored ? "glsl" : "spirv",
             file.parent_path().string()));
-    if (kernel != kTailored) return read_shader(file);
-    const std::string functions = read_text(fs::path(options.glsl) / fmt::format("order{:02}.glsl", order));
-    return compile_glsl(tailored_compute_shader(order, functions, read_text(file)), file.string());
+    if (kernel != kTailored) return gpu::read_shader(file);
+    const std::string functions =
+        gpu::read_text(fs::path(options.glsl) / fmt::format("order{:02}.glsl", order));
+    return gpu::compiled(tailored_compute_shader(order, functions, gpu::read_text(file)));
 }
 
 /// What was asked for, or the usual kernels of the orders that the folder has.
@@ -78,7 +79,7 @@ std::vector<Shader> collect(const Options& options) {
                 shaders.push_back({kernel, order, read_kernel(options, order, kernel)});
     for (const std::string& module : options.modules)
         shaders.push_back(
-            {fs::path(module).filename().string(), std::nullopt, zonal::gpu_cost::read_shader(module)});
+            {fs::path(module).filename().string(), std::nullopt, zonal::gpu::read_shader(module)});
     if (shaders.empty())
         throw std::runtime_error(
             fmt::format("found no shader in {}, wanted orderNN_KERNEL.spvasm; `zonal-gen "

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "gpu/compute.hpp"
-#include "gpu/modules.hpp"
+#include "gpu/emitted_shaders.hpp"
+#include "gpu/shader_modules.hpp"
 #include "gpu/tailored/cube_map_array.hpp"
 #include "support/oracle.hpp"
 #include "zonal/signal_tables.hpp"

@@ -1,10 +1,11 @@
-#include "gpu/modules.hpp"
+#include "gpu/shader_modules.hpp"
 
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <spirv-tools/libspirv.hpp>
@@ -41,13 +42,11 @@ struct Glslang {
 
 std::string read_text(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream || text.empty())
+        throw std::runtime_error(file.string() + ": cannot be read, or is empty; wanted a shader");
+    return text;
 }
-
-std::filesystem::path spirv_folder() { return ZONAL_SHADERS_DIR "/spirv"; }
-std::filesystem::path glsl_folder() { return ZONAL_SHADERS_DIR "/glsl"; }
-std::string order_stem(int order) { return fmt::format("order{:02}", order); }
 
 Words assembled(const std::string& text) {
     spvtools::SpirvTools tools(SPV_ENV_UNIVERSAL_1_3);
@@ -76,6 +75,24 @@ Words compiled(const std::string& glsl) {
         throw std::runtime_error(fmt::format("GLSL cannot be linked: {}", program.getInfoLog()));
     Words words;
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words);
+    return words;
+}
+
+Words read_shader(const std::filesystem::path& file) {
+    const std::string content = read_text(file), ending = file.extension();
+    try {
+        if (ending == ".spvasm") return assembled(content);
+        if (ending == ".comp") return compiled(content);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    if (ending != ".spv")
+        throw std::runtime_error(fmt::format(
+            "{}: found the ending '{}', wanted .spvasm, .spv or .comp; rename it", file.string(), ending));
+    Words words(content.size() / sizeof(std::uint32_t));
+    if (content.size() % sizeof(std::uint32_t) != 0)
+        throw std::runtime_error(file.string() + ": no SPIR-V: its size is no multiple of 4 bytes");
+    std::memcpy(words.data(), content.data(), content.size());
     return words;
 }
 
