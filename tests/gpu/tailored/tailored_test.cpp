@@ -1,5 +1,7 @@
 // Signal-tailored rotation as a shader does it, on the Vulkan device, within the bound of its tables.
 #include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -95,12 +97,17 @@ Work look_up(int order) {
                         order)};
 }
 
-std::string shader_text(int order, const Work& work) {
-    const auto functions = [&](const char* suffix) {
+/// The functions of an order.
+std::string functions(int order) {
+    const auto file = [&](const char* suffix) {
         return zonal::gpu::read_text(zonal::gpu::glsl_folder() /
                                      (zonal::gpu::order_stem(order) + suffix + ".glsl"));
     };
-    return "#version 450\n" + functions("") + functions("_tailored") + R"(
+    return file("") + file("_tailored");
+}
+
+std::string shader_text(int order, const Work& work) {
+    return "#version 450\n" + functions(order) + R"(
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push { uint count; };
 layout(set = 0, binding = 0, std430) readonly buffer Inputs { float inputs[]; };
@@ -241,6 +248,36 @@ TEST_P(Tailored, edges_and_corners_of_the_cube_have_the_value_of_their_band) {
                         bound)
                 << "at " << w.transpose();
     }
+}
+
+TEST_P(Tailored, compiles_as_a_fragment_shader_of_es_3_20) {
+    const int order = GetParam();
+    const std::string text =
+        fmt::format(R"(#version 320 es
+precision highp float;
+{functions}
+uniform float R[9];
+uniform vec3 low[4];
+uniform float levels[{layers}];
+uniform highp samplerCubeArray bands;
+out vec4 color;
+void main() {{
+    vec3 o[{size}];
+    zonal_order{order}_rotate_tailored(R, low, bands, levels, o);
+    color = vec4(o[{size} - 1], 1.0);
+}}
+)",
+                    fmt::arg("functions", functions(order)), fmt::arg("order", order),
+                    fmt::arg("size", order * order), fmt::arg("layers", order - zonal::kFirstTableBand));
+    glslang::InitializeProcess();
+    {
+        glslang::TShader shader(EShLangFragment);
+        const char* lines = text.c_str();
+        shader.setStrings(&lines, 1);
+        EXPECT_TRUE(shader.parse(GetDefaultResources(), 320, EEsProfile, false, false, EShMsgDefault))
+            << shader.getInfoLog();
+    }
+    glslang::FinalizeProcess();
 }
 
 INSTANTIATE_TEST_SUITE_P(orders, Tailored, testing::Values(3, 4, 5, 6),
