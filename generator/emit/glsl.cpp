@@ -38,6 +38,12 @@ class GlslSyntax : public Syntax {
     std::string signal_;
 };
 
+/// `out` is a word of the language.
+Kernel with_allowed_names(Kernel kernel) {
+    if (kernel.output.name == "out") kernel.output.name = "o";
+    return kernel;
+}
+
 std::string function_name(const Unit& unit, const Kernel& kernel) {
     return fmt::format("zonal_{}_{}", unit.name, plain_name(kernel));
 }
@@ -64,11 +70,11 @@ std::string print_function(const Unit& unit, const Kernel& kernel, bool has_chan
 }  // namespace
 
 std::string print_glsl_statements(const Kernel& kernel, bool has_channels, int indentation) {
-    return print_statements(kernel, GlslSyntax(has_channels), indentation);
+    return print_statements(with_allowed_names(kernel), GlslSyntax(has_channels), indentation);
 }
 
-std::string print_glsl_kernel(const Unit& unit, Kernel kernel) {
-    if (kernel.output.name == "out") kernel.output.name = "o";  // a word of the language
+std::string print_glsl_kernel(const Unit& unit, const Kernel& original) {
+    const Kernel kernel = with_allowed_names(original);
     std::string text = "\n";
     for (const auto& lines : {purpose_lines(kernel), precondition_lines(kernel), source_lines(kernel)})
         for (const std::string& line : lines) text += "// " + line + "\n";

@@ -14,6 +14,6 @@ std::string print_glsl(const Unit& unit);
 std::string print_glsl_statements(const graph::Kernel& kernel, bool has_channels, int indentation);
 
 /// One of them: its comment and its functions.
-std::string print_glsl_kernel(const Unit& unit, graph::Kernel kernel);
+std::string print_glsl_kernel(const Unit& unit, const graph::Kernel& kernel);
 
 }  // namespace zonal::emit

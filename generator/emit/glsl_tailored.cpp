@@ -79,7 +79,6 @@ graph::Kernel resampled_band(const Unit& unit, int band) {
     std::erase_if(kernel.stores, [&](const graph::Store& store) {
         return store.index < band * band || store.index >= (band + 1) * (band + 1);
     });
-    kernel.output.name = "o";
     return graph::remove_dead(kernel);
 }
 

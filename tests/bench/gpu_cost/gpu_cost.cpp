@@ -59,10 +59,10 @@ std::vector<std::uint32_t> read_kernel(const Options& options, int order, const 
             "writes the kernels that the order has",
             file.string(), kernel, order, order, kernel == kTailored ? "glsl" : "spirv",
             file.parent_path().string()));
-    if (kernel != kTailored) return gpu::read_shader(file);
+    if (kernel != kTailored) return zonal::gpu::read_shader(file);
     const std::string functions =
-        gpu::read_text(fs::path(options.glsl) / fmt::format("order{:02}.glsl", order));
-    return gpu::compiled(tailored_compute_shader(order, functions, gpu::read_text(file)));
+        zonal::gpu::read_text(fs::path(options.glsl) / fmt::format("order{:02}.glsl", order));
+    return zonal::gpu::compiled(tailored_compute_shader(order, functions, zonal::gpu::read_text(file)));
 }
 
 /// What was asked for, or the usual kernels of the orders that the folder has.
