@@ -412,6 +412,13 @@ bool is_for_channels(const Unit& unit, const Kernel& kernel) {
     });
 }
 
+/// Whether output may be written over the input signal.
+bool turns_in_place(const Kernel& kernel) {
+    const graph::Array& input = kernel.inputs.back();
+    return input.kind == Kind::signal && kernel.output.kind == Kind::signal &&
+           input.size == kernel.output.size;
+}
+
 std::string print_compute(const Kernel& kernel, const Form& form) {
     Declarations declarations;
     declarations.type("action", "OpTypeFunction %void");
@@ -448,6 +455,8 @@ std::string print_compute(const Kernel& kernel, const Form& form) {
     for (const auto& [name, binding] : buffers.bindings()) {
         text += fmt::format("OpDecorate %{0} DescriptorSet 0\nOpDecorate %{0} Binding {1}\n", name, binding);
         if (binding != 2) text += fmt::format("OpDecorate %{} NonWritable\n", name);
+        // Input and output may be one buffer. (Mesa makes the same code of it.)
+        if (binding != 0 && turns_in_place(kernel)) text += fmt::format("OpDecorate %{} Aliased\n", name);
     }
     for (const std::string& name : printer.fixed_results())
         text += fmt::format("OpDecorate %{} NoContraction\n", name);
