@@ -19,7 +19,7 @@ struct SpirvModule {
 /// kernel of a signal STEM_KERNEL_rgb.spvasm, three channels; and STEM.spvasm, the kernels as functions with
 /// linkage. Set 0: binding 0 rotations (or the scalars that `prepare` makes), 1 input, 2 output, tightly
 /// packed floats [vector][element][channel]; push constant uint count of vectors at offset 0; workgroup x by
-/// SpecId 0.
+/// SpecId 0. Input and output may be one buffer where they have the same size.
 std::vector<SpirvModule> print_spirv(const Unit& unit);
 
 }  // namespace zonal::emit

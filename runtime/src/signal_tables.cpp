@@ -98,7 +98,7 @@ double largest_value(int order, int l, std::span<const Rgb<float>> signal) {
     double largest = 0;
     for (int face = 0; face < kFaces; ++face) {
         for (int texel = 0; texel < kGrid * kGrid; ++texel) {
-            evaluate_basis(order, texel_direction(kGrid, face, texel / kGrid, texel % kGrid), basis);
+            evaluate_basis(order, face_texel_direction(kGrid, face, texel / kGrid, texel % kGrid), basis);
             const Rgb<double> value = band_value(l, signal, basis);
             largest = std::max(largest, std::hypot(value.r, value.g, value.b));
         }
@@ -326,7 +326,7 @@ SignalTables<T> build_signal_tables(int order, std::span<const Rgb<float>> signa
         const int size = plan.size_at(level);
         for (int face = 0; face < kFaces; ++face) {
             for (int texel = 0; texel < size * size; ++texel) {
-                evaluate_basis(order, texel_direction(size, face, texel / size, texel % size), basis);
+                evaluate_basis(order, face_texel_direction(size, face, texel / size, texel % size), basis);
                 for (int layer = 0; layer < plan.layer_count(); ++layer) {
                     const int l = kFirstTableBand + layer;
                     const Rgb<double> value = band_value(l, signal, basis);
@@ -341,7 +341,7 @@ SignalTables<T> build_signal_tables(int order, std::span<const Rgb<float>> signa
     return tables;
 }
 
-Eigen::Vector3d texel_direction(int size, int face, int row, int column) {
+Eigen::Vector3d face_texel_direction(int size, int face, int row, int column) {
     const double u = ((2 * column + 1.0) / size - 1) / kFaceScale;
     const double v = ((2 * row + 1.0) / size - 1) / kFaceScale;
     const std::array<Eigen::Vector3d, kFaces> directions{

@@ -143,7 +143,7 @@ TEST(SignalTables, texels_hold_each_band_where_vulkan_looks_for_it) {
         for (int face = 0; face < 6; ++face) {
             for (const auto& [row, column] :
                  {std::array{0, 0}, {0, size - 1}, {size - 1, 3}, {size / 2, 5}}) {
-                const Vector3d w = zonal::texel_direction(size, face, row, column);
+                const Vector3d w = zonal::face_texel_direction(size, face, row, column);
                 // Scaled about the face's centre, it lies at the texel's centre.
                 const FacePoint point = zonal::test::project_onto_face(face, w);
                 EXPECT_NEAR((point.s - 0.5) * zonal::kFaceScale + 0.5, (column + 0.5) / size, 1e-15);

@@ -99,6 +99,6 @@ SignalTables<T> build_signal_tables(int order, std::span<const Rgb<float>> signa
 
 /// The unit direction of a texel of a face with `size` texels along an edge: Vulkan's and OpenGL's faces and
 /// their (s, t), columns along s, rows along t, stretched.
-Eigen::Vector3d texel_direction(int size, int face, int row, int column);
+Eigen::Vector3d face_texel_direction(int size, int face, int row, int column);
 
 }  // namespace zonal
