@@ -209,6 +209,7 @@ Json figure_of(const Json& comparison) {
     return {{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
             {"width", 640},
             {"height", 320},
+            {"config", {{"legend", {{"labelLimit", 300}}}}},
             {"data", {{"values", values}}},
             {"encoding", {{"x", {{"field", "order"}, {"type", "ordinal"}, {"title", "order N"}}}}},
             {"layer",
