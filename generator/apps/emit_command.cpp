@@ -52,19 +52,15 @@ Files spirv_files(const emit::Unit& unit, const Options& options) {
     return files;
 }
 
-const graph::Kernel& kernel_named(const std::vector<graph::Kernel>& kernels, const std::string& name) {
-    return *std::ranges::find(kernels, name, &graph::Kernel::name);
-}
-
 /// Bands 0 and 1 are those of an order-2 signal: they turn by its kernel, exactly, and need no table.
 emit::TailoredRotation tailored_rotation(const kernels::LobeSet& lobes) {
     constexpr int kLowBands = 2;
     emit::TailoredRotation rotation;
-    rotation.rotate_low = kernel_named(kernels::build_order(kLowBands, {}), "rotate");
+    rotation.rotate_low = graph::kernel_named(kernels::build_order(kLowBands, {}), "rotate");
     rotation.rotate_low.name = "rotate_low";
     rotation.rotate_low.summary = "Rotates bands 0 and 1: f'(w) = f(R^T w).";
     for (int l = kLowBands; l < lobes.order; ++l)
-        rotation.bands.push_back({l, lobes.weight_start(l), lobes.lobes_of[l]});
+        rotation.bands.push_back({l, lobes.weight_start(l), l * l, 2 * l + 1, lobes.lobes_of[l]});
     return rotation;
 }
 
@@ -138,10 +134,10 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
         unit.kernels, [](const graph::Kernel& kernel) { return kernel.variant == "per_band"; });
     unit.constants.push_back(
         {"kHasPerBandLobes", has_per_band ? 1 : 0, "1 where lobes of each band's own are here, else 0"});
-    const graph::Kernel& prepare = kernel_named(order.kernels, "prepare");
+    const graph::Kernel& prepare = graph::kernel_named(order.kernels, "prepare");
     unit.constants.push_back({"kScalars", prepare.output.size, "Values that `prepare` makes"});
     const bool takes_mirrors =
-        !kernel_named(order.kernels, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
+        !graph::kernel_named(order.kernels, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
     unit.constants.push_back({"kTakesMirrors", takes_mirrors ? 1 : 0,
                               "1 where `rotate` of one channel and `prepare` take det R = -1, else 0"});
     return unit;

@@ -23,11 +23,6 @@ namespace {
 /// zonal::kFaceScale of the runtime, 31/32: exact in float.
 const char* const kFaceScale = "0.96875";
 
-const graph::Kernel& kernel_named(const Unit& unit, const std::string& full_name) {
-    return *std::ranges::find_if(
-        unit.kernels, [&](const graph::Kernel& kernel) { return kernel.full_name() == full_name; });
-}
-
 int fetches(const TailoredRotation& rotation) {
     std::size_t count = 0;
     for (const auto& band : rotation.bands) count += band.lobes.size();
@@ -39,9 +34,10 @@ std::vector<std::string> cost_texts(const Unit& unit, const TailoredRotation& ro
         return counts_text(graph::count_operations(kernel).total());
     };
     return {fmt::format("rotate_tailored {} texture fetches and the scaling of {} directions;",
-                        fetches(rotation), kernel_named(unit, "lobes").output.size / 3),
-            fmt::format("  lobes {};", counts(kernel_named(unit, "lobes"))),
-            fmt::format("  a channel, resample {}, of which", counts(kernel_named(unit, "resample"))),
+                        fetches(rotation), graph::kernel_named(unit.kernels, "lobes").output.size / 3),
+            fmt::format("  lobes {};", counts(graph::kernel_named(unit.kernels, "lobes"))),
+            fmt::format("  a channel, resample {}, of which",
+                        counts(graph::kernel_named(unit.kernels, "resample"))),
             fmt::format("  bands below {} are not used; rotate_low {}", rotation.bands.front().band,
                         counts(rotation.rotate_low))};
 }
@@ -50,7 +46,7 @@ std::string banner(const Unit& unit, const TailoredRotation& rotation) {
     std::vector<std::string> lines = opening_lines(unit);
     append_key(lines, "cost", cost_texts(unit, rotation));
     append_key(lines, "bound", {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
-    append_key(lines, "source", kernel_named(unit, "resample").sources);
+    append_key(lines, "source", graph::kernel_named(unit.kernels, "resample").sources);
     std::string text;
     for (const std::string& line : lines) text += "// " + line + "\n";
     return text;
@@ -74,10 +70,10 @@ std::string print_face_direction(const Unit& unit) {
 }
 
 /// What `resample` makes of one band's samples.
-graph::Kernel resampled_band(const Unit& unit, int band) {
-    graph::Kernel kernel = kernel_named(unit, "resample");
+graph::Kernel resampled_band(const Unit& unit, const TailoredRotation::SampledBand& band) {
+    graph::Kernel kernel = graph::kernel_named(unit.kernels, "resample");
     std::erase_if(kernel.stores, [&](const graph::Store& store) {
-        return store.index < band * band || store.index >= (band + 1) * (band + 1);
+        return store.index < band.first_output || store.index >= band.first_output + band.output_count;
     });
     return graph::remove_dead(kernel);
 }
@@ -92,15 +88,15 @@ std::string print_bands(const Unit& unit, const TailoredRotation& rotation) {
         for (std::size_t d = 0; d < band.lobes.size(); ++d)
             text += fmt::format("    samples[{}] = textureLod(bands, vec4(w{}, {}.0), levels[{}]).rgb;\n",
                                 band.first_sample + static_cast<int>(d), band.lobes[d], layer, layer);
-        text += print_glsl_statements(resampled_band(unit, band.band), true, 4);
+        text += print_glsl_statements(resampled_band(unit, band), true, 4);
         ++layer;
     }
     return text;
 }
 
 std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
-    const int directions = kernel_named(unit, "lobes").output.size;
-    const int coefficients = kernel_named(unit, "resample").output.size;
+    const int directions = graph::kernel_named(unit.kernels, "lobes").output.size;
+    const int coefficients = graph::kernel_named(unit.kernels, "resample").output.size;
     const int low = rotation.rotate_low.output.size;
     std::string text = fmt::format(
         "\n"

@@ -13,7 +13,9 @@ struct TailoredRotation {
     /// A band that is looked up: its expansion is a layer of the cube-map array, in the order of this list.
     struct SampledBand {
         int band = 0;
-        int first_sample = 0;    ///< of the band, in the input of `resample`
+        int first_sample = 0;  ///< of the band, in the input of `resample`
+        int first_output = 0;  ///< of the band, in its output
+        int output_count = 0;
         std::vector<int> lobes;  ///< looked up, one a sample, by number in the output of `lobes`
     };
     std::vector<SampledBand> bands;

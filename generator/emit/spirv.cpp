@@ -143,6 +143,8 @@ class BodyPrinter {
     }
 
     std::string negated(Id id) {
+        const Node& node = kernel_.graph[id];
+        if (node.op == Op::constant) return declarations_.number(float_literal(-node.value));
         const std::string value = operand(id);
         const std::string name = value.substr(1) + "_minus";
         if (negated_.insert(id).second) append(name, fmt::format("OpFNegate {} {}", type_of(id), value));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <spirv-tools/optimizer.hpp>
 #include <stdexcept>
 
@@ -11,6 +12,12 @@ namespace {
 
 spv_target_env environment(SpirvUse use) {
     return use == SpirvUse::vulkan_1_1 ? SPV_ENV_VULKAN_1_1 : SPV_ENV_UNIVERSAL_1_3;
+}
+
+std::size_t end_of_comment(const std::string& text) {
+    std::size_t end = 0;
+    while (end < text.size() && text[end] == ';') end = std::min(text.find('\n', end), text.size() - 1) + 1;
+    return end;
 }
 
 }  // namespace
@@ -38,7 +45,7 @@ std::string optimize_spirv(const std::string& text, SpirvUse use) {
         !spvtools::SpirvTools(environment(use))
              .Disassemble(module, &optimized, SPV_BINARY_TO_TEXT_OPTION_NO_HEADER))
         throw std::logic_error("SPIRV-Tools cannot optimize a module that it found valid");
-    return optimized;
+    return text.substr(0, end_of_comment(text)) + optimized;
 }
 
 }  // namespace zonal::emit

@@ -16,7 +16,7 @@ enum class SpirvUse {
 /// valid module: a printer's fault, not a user's.
 std::vector<std::uint32_t> assemble(const std::string& text, SpirvUse use);
 
-/// The module after SPIRV-Tools' passes for performance, as text again.
+/// The module after SPIRV-Tools' passes for performance, as text again, with the comment that it begins with.
 std::string optimize_spirv(const std::string& text, SpirvUse use);
 
 }  // namespace zonal::emit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,12 @@ struct Kernel {
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
     void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }
 };
+
+/// The kernel of that full name. Throws std::logic_error where there is none.
+inline const Kernel& kernel_named(const std::vector<Kernel>& kernels, const std::string& full_name) {
+    for (const Kernel& kernel : kernels)
+        if (kernel.full_name() == full_name) return kernel;
+    throw std::logic_error("no kernel " + full_name);
+}
 
 }  // namespace zonal::graph

@@ -103,6 +103,9 @@ void ComputePipeline::dispatch(std::span<const Binding> bindings, std::uint32_t 
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *descriptors.set, {});
         commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, count);
         commands.dispatch((count + workgroup_size_ - 1) / workgroup_size_, 1, 1);
+        const vk::MemoryBarrier written(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost,
+                                 {}, written, {}, {});
     });
 }
 

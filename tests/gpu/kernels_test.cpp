@@ -34,7 +34,6 @@ class Kernels : public testing::TestWithParam<int> {
     Words module(const std::string& name) const {
         return assembled(read_text(spirv_folder() / fmt::format("{}_{}.spvasm", order_stem(order()), name)));
     }
-    /// Bit by bit where the device computes as it is told, else within the kernel's bound.
     void expect_within_bounds(const std::string& form, const ReferenceKernel& kernel, const Words& words,
                               int channels) const {
         const ModuleRunner runner(words, channels * kernel.output_size);
@@ -69,6 +68,28 @@ TEST_P(Kernels, precise_modules_give_the_bits_of_cpp) {
         if (kernel.input_size != kernel.output_size) continue;
         EXPECT_EQ(difference(runner.run_in_place(vectors), expected, kernel.output_size), "")
             << kernel.name << " in place";
+    }
+}
+
+TEST_P(Kernels, plain_and_rgb_modules_turn_in_place) {
+    const ReferenceKernel& kernel = reference_kernel(order(), "rotate");
+    for (const int channels : {1, 3}) {
+        const Vectors vectors = test_vectors(order(), kernel, channels);
+        const ModuleRunner runner(module(channels == 3 ? "rotate_rgb" : "rotate"),
+                                  channels * kernel.output_size);
+        const int size = channels * kernel.output_size;
+        EXPECT_EQ(difference(runner.run_in_place(vectors), runner.run(vectors), size), "") << channels;
+    }
+}
+
+TEST_P(Kernels, the_workgroup_takes_its_size_from_the_specialization) {
+    const ReferenceKernel& kernel = reference_kernel(order(), "rotate");
+    const Vectors vectors = test_vectors(order(), kernel, 1);
+    // A module of fixed size 64 would leave every second 64 of 128 vectors untouched.
+    const ModuleRunner usual(module("rotate"), kernel.output_size);
+    for (const int size : {16, 128}) {
+        const ModuleRunner runner(module("rotate"), kernel.output_size, size);
+        EXPECT_EQ(difference(runner.run(vectors), usual.run(vectors), kernel.output_size), "") << size;
     }
 }
 

@@ -75,8 +75,9 @@ std::string device_name() { return device().name(); }
 
 void close_device() {
     if (!the_device()) return;
-    the_device()->check_validation();
+    const std::shared_ptr<ValidationMessages> messages = the_device()->validation_messages();
     the_device().reset();
+    messages->check();
 }
 
 }  // namespace zonal::gpu

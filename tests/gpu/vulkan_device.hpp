@@ -55,6 +55,8 @@ class Device {
     }
     /// Throws if the validation layers found errors since the last call.
     void check_validation() const { messages_->check(); }
+    /// They outlive the device: what is said while it is destroyed is there to be checked afterwards.
+    const std::shared_ptr<ValidationMessages>& validation_messages() const { return messages_; }
 
   private:
     vk::raii::CommandBuffer begin() const;

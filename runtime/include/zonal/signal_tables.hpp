@@ -80,10 +80,10 @@ struct SignalTables {
     std::size_t byte_count() const { return texels.size() * sizeof(T); }
 };
 
-/// The smallest tables whose bound is within the budget.
-/// order   : one whose lobe kernels are compiled in.
-/// signal  : order^2 coefficients, index l(l+1)+m; norms and errors are taken over all channels together.
-/// Errors  : zonal::Error when the order has no lobes here, the signal is of another length, zero, not finite
+/// Tables whose bound is within the budget. Coarser levels of low bands save cache, not memory: the array
+/// holds every layer at every level. order   : one whose lobe kernels are compiled in. signal  : order^2
+/// coefficients, index l(l+1)+m; norms and errors are taken over all channels together. Errors  :
+/// zonal::Error when the order has no lobes here, the signal is of another length, zero, not finite
 ///           or, for half, possibly beyond 65504; when an option is out of range; when no tables of this
 ///           format and at most `largest_face` texels reach the budget.
 /// Half of the squared budget chooses level 0, the other half coarser levels of low bands; what is left then
