@@ -99,8 +99,7 @@ std::string distance(int order, const ReferenceKernel& kernel, const Vectors& ve
             const auto at = static_cast<std::size_t>(k) * kernel.output_size * channels + c;
             std::string message;
             if (is_turn) {
-                // Mirrors are not what every one of these kernels is for.
-                if (determinant(R) < 0) continue;
+                if (determinant(R) < 0 && !bound.takes_mirrors) continue;
                 const double allowed = 2 * (bound.float_bound + bound.excess * orthonormality_error(R));
                 double squares = 0;
                 if (is_first_step) {

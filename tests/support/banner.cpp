@@ -31,8 +31,8 @@ Bound bound(int order, const std::string& kernel) {
     const std::smatch match = find(
         order, kernel, text,
         " " + kernel +
-            R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\),\s+//\s+for det R = [^;]*; excess ([0-9.]+))");
-    return {std::stod(match[1]), std::stod(match[2]), std::stod(match[3])};
+            R"( relative error ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\),\s+//\s+for det R = \+1( or -1)?; excess ([0-9.]+))");
+    return {std::stod(match[1]), std::stod(match[2]), std::stod(match[4]), match[3].matched};
 }
 
 Cost cost(int order, const std::string& kernel) {

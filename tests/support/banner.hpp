@@ -11,7 +11,8 @@ std::string header_text(int order);
 struct Bound {
     double float_bound = 0;
     double double_bound = 0;
-    double excess = 0;  ///< for each unit of ‖R Rᵀ - I‖_F
+    double excess = 0;           ///< for each unit of ‖R Rᵀ - I‖_F
+    bool takes_mirrors = false;  ///< holds for det R = -1 too
 };
 /// Throws std::runtime_error naming order and kernel where it publishes none.
 Bound bound(int order, const std::string& kernel);
