@@ -207,25 +207,33 @@ double worst_sample(const SignalTables<T>& tables, int l, int bits, double texel
     return largest;
 }
 
+/// The orders whose lobes are compiled in: fewer under the sanitizers.
+const std::vector<int>& lobe_orders() {
+#define ZONAL_LIST_ENTRY(N) N,
+    static const std::vector<int> orders{ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_LIST_ENTRY)};
+#undef ZONAL_LIST_ENTRY
+    return orders;
+}
+
 template <class T>
 void check_samples(double texel_rounding) {
-    constexpr int kOrder = 10;
+    const int order = lobe_orders().back();
     constexpr int kLargestFace = 150;  // more takes longer and shows nothing new
     const std::vector<Vector3d> places = directions(150);
     double largest_share = 0;
-    for (int l = 2; l < kOrder; ++l) {
-        const Signal signal = only_band(l, lighting(kOrder, l));
+    for (int l = 2; l < order; ++l) {
+        const Signal signal = only_band(l, lighting(order, l));
         const double peak = std::sqrt((2 * l + 1) / (4 * std::numbers::pi)) * norm(signal);
         std::vector<std::array<double, 3>> exact;
-        for (const Vector3d& w : places) exact.push_back(exact_sample(kOrder, l, signal, w));
+        for (const Vector3d& w : places) exact.push_back(exact_sample(order, l, signal, w));
         std::set<int> sizes;
         for (const double share : {2.0, 0.4, 0.1, 0.05}) {
             const double budget = share * l * l / 25;  // higher bands, larger faces for the same error
             for (const int bits : {4, 8}) {
                 const SignalTableOptions options{.budget = budget, .subtexel_bits = bits};
-                const int size = zonal::plan_signal_tables<T>(kOrder, signal, options).face_size;
+                const int size = zonal::plan_signal_tables<T>(order, signal, options).face_size;
                 if (size > kLargestFace || !sizes.insert(size).second) continue;
-                const auto tables = zonal::build_signal_tables<T>(kOrder, signal, options);
+                const auto tables = zonal::build_signal_tables<T>(order, signal, options);
                 largest_share = std::max(largest_share,
                                          worst_sample(tables, l, bits, texel_rounding, places, exact, peak));
             }
@@ -376,7 +384,8 @@ void check_rotations(int order, double budget) {
 }
 
 TEST(SignalTables, whole_rotations_are_within_budget_and_bound) {
-    for (const int order : {3, 4, 5, 6, 8, 10}) check_rotations<half>(order, 0.05);
+    for (const int order : {3, 4, 5, 6, 8, 10})
+        if (order <= lobe_orders().back()) check_rotations<half>(order, 0.05);
     for (const int order : {3, 4, 6}) check_rotations<float>(order, 0.01);
     check_rotations<float>(4, 0.002);
 }
