@@ -88,8 +88,7 @@ std::string print_glsl(const Unit& unit) {
     for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
     text +=
         "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index "
-        "l(l+1)+m; a "
-        "vec3\n// holds three channels.\n";
+        "l(l+1)+m; a vec3\n// holds three channels.\n";
     for (const Kernel& kernel : unit.kernels) text += print_glsl_kernel(unit, kernel);
     return text;
 }

@@ -174,16 +174,16 @@ class BodyPrinter {
 
     /// By bits: a comparison with 0 would take -0 for +0.
     void print_copy_sign(const std::string& name, const Node& node) {
-        const std::string one = declarations_.unsigned_integer(0x7fffffffu);
-        const std::string other = declarations_.unsigned_integer(0x80000000u);
+        const std::string size_mask = declarations_.unsigned_integer(0x7fffffffu);
+        const std::string sign_mask = declarations_.unsigned_integer(0x80000000u);
         const auto bits = [&](const std::string& suffix, Id id, const std::string& mask) {
             const std::string value = operand(id);
             body_ += fmt::format(
                 "%{0}_{1}_bits = OpBitcast %uint {2}\n%{0}_{1} = OpBitwiseAnd %uint %{0}_{1}_bits {3}\n",
                 name, suffix, value, mask);
         };
-        bits("size", node.operands[0], one);
-        bits("sign", node.operands[1], other);
+        bits("size", node.operands[0], size_mask);
+        bits("sign", node.operands[1], sign_mask);
         body_ += fmt::format(
             "%{0}_bits = OpBitwiseOr %uint %{0}_size %{0}_sign\n%{0} = OpBitcast %float %{0}_bits\n", name);
     }

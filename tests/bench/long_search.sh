@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Searches of any length for the bands and orders whose goal is not reached yet, in turn: the seed and then the
-# weights change with every round, and the best table of each is kept and taken up again in every third round.
+# weights change with every round; the best table of each is kept, and those of orders are taken up again in every
+# third round.
 # A line a search: what it found, its options, the best so far and the goal. Stop with Ctrl-C.
 # Usage: nice bash tests/bench/long_search.sh FOLDER [SECONDS_EACH [ZONAL_GEN [FIRST_SEED]]] | tee -a tests/bench/long_search.log
 set -euo pipefail
