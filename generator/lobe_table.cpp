@@ -251,6 +251,8 @@ LobeUse LobeUse::band(int l) { return {"band", l, {l}}; }
 
 std::filesystem::path LobeUse::table_name() const { return fmt::format("{}{:02d}.json", field, value); }
 
+std::filesystem::path LobeUse::mirrored_table_name() const { return "mirrored" / table_name(); }
+
 void measure_lobe_table(LobeTable& table) {
     table.zeros.clear();
     table.condition.clear();

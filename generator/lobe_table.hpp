@@ -30,6 +30,8 @@ struct LobeUse {
     int lobe_count() const { return 2 * bands.back() + 1; }
     /// Name of its table inside a tables folder: orderNN.json, bandLL.json.
     std::filesystem::path table_name() const;
+    /// The same of the lobes closed under mirrors: mirrored/bandLL.json.
+    std::filesystem::path mirrored_table_name() const;
 };
 
 /// Saved lobe directions and how they were found. Schema: generator/tables/README.md.

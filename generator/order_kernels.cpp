@@ -32,16 +32,37 @@ std::map<std::string, emit::Bound> read_bounds(const std::filesystem::path& path
     return bounds;
 }
 
+std::string name_in_banner(const std::filesystem::path& table_name) {
+    return ("generator/tables" / table_name).string();
+}
+
 std::optional<OrderLobes> load_lobes(int order, const std::filesystem::path& table_path) {
     const bool is_own = table_path.empty();
     const LobeUse use = LobeUse::order(order);
     const std::filesystem::path path = is_own ? tables_folder() / use.table_name() : table_path;
     if (is_own && !std::filesystem::exists(path)) return std::nullopt;
     OrderLobes lobes;
-    lobes.table = read_lobe_table(path, use);
-    lobes.table_name = is_own ? ("generator/tables" / use.table_name()).string() : path.filename().string();
-    lobes.set = kernels::LobeSet::shared(order, lobes.table.directions);
+    lobes.source = {read_lobe_table(path, use),
+                    is_own ? name_in_banner(use.table_name()) : path.filename().string()};
+    lobes.set = kernels::LobeSet::shared(order, lobes.source.table.directions);
     return lobes;
+}
+
+/// Of a band's tables the one whose product takes fewest instructions; none where it has no table.
+std::optional<NamedTable> cheapest_table(int l) {
+    const LobeUse use = LobeUse::band(l);
+    std::optional<NamedTable> cheapest;
+    int fewest = 0;
+    for (const std::filesystem::path& name : {use.table_name(), use.mirrored_table_name()}) {
+        if (!std::filesystem::exists(tables_folder() / name)) continue;
+        NamedTable source{read_lobe_table(tables_folder() / name, use), name_in_banner(name)};
+        const exact::BandFactorization band = exact::factorize_band(l, source.table.directions);
+        const int instructions = kernels::factorization_counts(band).instructions();
+        if (cheapest && instructions >= fewest) continue;
+        cheapest = std::move(source);
+        fewest = instructions;
+    }
+    return cheapest;
 }
 
 std::optional<BandLobes> load_band_lobes(int order) {
@@ -50,11 +71,10 @@ std::optional<BandLobes> load_band_lobes(int order) {
     std::vector<std::vector<Direction>> directions{
         {Direction::UnitZ()}, {Direction::UnitY(), Direction::UnitZ(), Direction::UnitX()}};
     for (int l = 2; l < order; ++l) {
-        const LobeUse use = LobeUse::band(l);
-        const std::filesystem::path path = tables_folder() / use.table_name();
-        if (!std::filesystem::exists(path)) return std::nullopt;
-        lobes.tables.push_back(read_lobe_table(path, use));
-        directions.push_back(lobes.tables.back().directions);
+        const std::optional<NamedTable> source = cheapest_table(l);
+        if (!source) return std::nullopt;
+        directions.push_back(source->table.directions);
+        lobes.sources.push_back(*source);
     }
     lobes.set = kernels::LobeSet::per_band(directions);
     return lobes;
@@ -77,7 +97,7 @@ OrderKernels build_order_kernels(int order, const std::filesystem::path& table_p
         kernels::build_order(order, {.shared = result.lobes ? &result.lobes->set : nullptr,
                                      .per_band = result.band_lobes ? &result.band_lobes->set : nullptr});
     result.bounds = read_bounds(tables_folder() / "bounds.json", order,
-                                result.lobes ? result.lobes->table.sha256.substr(0, kHashDigits) : "");
+                                result.lobes ? result.lobes->source.table.sha256.substr(0, kHashDigits) : "");
     return result;
 }
 

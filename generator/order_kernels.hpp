@@ -22,17 +22,22 @@ inline constexpr int kHashDigits = 16;
 /// Throws `UserError` unless `smallest` <= order <= kLargestOrder.
 void check_order(int order, int smallest = kSmallestOrder);
 
-/// The lobes of an order as a table gives them.
-struct OrderLobes {
+/// A table and how a banner names it: no path of a machine.
+struct NamedTable {
     LobeTable table;
-    std::string table_name;  ///< how a banner names the table: no path of a machine
+    std::string name;
+};
+
+/// The lobes that all bands of an order share.
+struct OrderLobes {
+    NamedTable source;
     kernels::LobeSet set;
 };
 
 /// The lobes that bands 2 … order-1 have of their own.
 struct BandLobes {
-    std::vector<LobeTable> tables;  ///< of those bands
-    kernels::LobeSet set;           ///< of all bands; bands 0 and 1 take the pole and the axes
+    std::vector<NamedTable> sources;  ///< of those bands: the sparsest lobes or those closed under mirrors
+    kernels::LobeSet set;             ///< of all bands; bands 0 and 1 take the pole and the axes
 };
 
 /// The kernels of an order, as `emit` and `stats` need them.

@@ -103,13 +103,12 @@ const Language& find_language(const std::string& name) {
 
 std::vector<std::string> tables_of(const OrderKernels& order) {
     if (!order.lobes) return {"none for this order, so no searched lobes: zonal-gen search"};
-    const auto describe = [](const std::string& name, const LobeTable& table) {
-        return fmt::format("{}  sha256:{}", name, table.sha256.substr(0, kHashDigits));
+    const auto describe = [](const NamedTable& source) {
+        return fmt::format("{}  sha256:{}", source.name, source.table.sha256.substr(0, kHashDigits));
     };
-    std::vector<std::string> tables{describe(order.lobes->table_name, order.lobes->table)};
+    std::vector<std::string> tables{describe(order.lobes->source)};
     if (order.band_lobes)
-        for (const LobeTable& table : order.band_lobes->tables)
-            tables.push_back(describe(("generator/tables" / table.use.table_name()).string(), table));
+        for (const NamedTable& source : order.band_lobes->sources) tables.push_back(describe(source));
     return tables;
 }
 
@@ -119,7 +118,7 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     unit.file_stem = fmt::format("order{:02}", options.order);
     unit.command =
         fmt::format("zonal-gen emit --order {} --language {}{}{} --out generated/{}", options.order,
-                    options.language, options.table.empty() ? "" : " --table " + order.lobes->table_name,
+                    options.language, options.table.empty() ? "" : " --table " + order.lobes->source.name,
                     options.is_optimized ? " --optimize" : "", options.language);
     unit.tables = tables_of(order);
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";

@@ -16,6 +16,7 @@
 #include "lobe_table.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
+#include "search/orbit_search.hpp"
 #include "search/progress_text.hpp"
 #include "search/search.hpp"
 #include "user_error.hpp"
@@ -60,11 +61,16 @@ struct Options {
     int stall = 0;
     int elite = 2;
     int moves = 0;
+    int mirrors = 0;
     double crossover = 0.8;
     double mutation = 0;
     search::Objective objective;
 
     LobeUse use() const { return band > 0 ? LobeUse::band(band) : LobeUse::order(order); }
+    /// Path of the table inside a tables folder.
+    std::filesystem::path table_path() const {
+        return mirrors > 0 ? use().mirrored_table_name() : use().table_name();
+    }
     search::Problem problem() const {
         return band > 0 ? search::Problem::one_band(band) : search::Problem::shared(order);
     }
@@ -112,7 +118,8 @@ std::string canonical_command(const Options& options, int generations) {
     const auto add = [&](const char* name, const auto& value, const auto& default_value) {
         if (value != default_value) command += fmt::format(" {} {}", name, value);
     };
-    const std::string table = fmt::format("generator/tables/{}", use.table_name().string());
+    const std::string table = fmt::format("generator/tables/{}", options.table_path().string());
+    if (options.mirrors > 0) command += fmt::format(" --mirrors {}", options.mirrors);
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
     if (!options.resume.empty()) command += " --resume " + table;
@@ -172,6 +179,10 @@ std::string archive_text(const Options& options, const search::SearchResult& res
     return archive.dump(2) + "\n";
 }
 
+int emitted_instructions(const exact::BandFactorization& band) {
+    return kernels::factorization_counts(band).instructions();
+}
+
 void run(const Options& options) {
     check_use(options);
     check_is_writable("--out", options.out);
@@ -193,7 +204,10 @@ void run(const Options& options) {
     };
 
     const InterruptGuard guard;
-    const search::SearchResult result = search::search_lobes(problem, settings, stop_requested, observer);
+    const search::SearchResult result =
+        options.mirrors > 0 ? search::search_orbits(options.band, settings, {options.mirrors, options.moves},
+                                                    emitted_instructions, stop_requested, observer)
+                            : search::search_lobes(problem, settings, stop_requested, observer);
     fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
     if (!result.best.score.is_allowed(options.objective)) {
         throw UserError(
@@ -216,7 +230,7 @@ void add_search_command(CLI::App& app) {
     Options& o = *options;
     CLI::Option_group* use = command->add_option_group("use", "what the lobes are for");
     use->add_option("--order", o.order, "number of bands that share the lobes, 3 to 20");
-    use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");
+    CLI::Option* band = use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");
     use->require_option(1);
     command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
         ->required();
@@ -227,8 +241,8 @@ void add_search_command(CLI::App& app) {
         ->check(CLI::PositiveNumber);
     command->add_option("--seconds", o.seconds, "after which to stop")->check(CLI::PositiveNumber);
     command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
-    command->add_flag("--plain", o.is_plain,
-                      "the paper's genetic algorithm, with no local steps, on the grid");
+    CLI::Option* plain = command->add_flag("--plain", o.is_plain,
+                                           "the paper's genetic algorithm, with no local steps, on the grid");
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
     command
         ->add_option("--zero-bands", o.zero_bands,
@@ -239,9 +253,18 @@ void add_search_command(CLI::App& app) {
         ->add_option("--rings", o.rings,
                      "candidates off the equator lie at phi = k pi / d for these d (default: by the bands)")
         ->check(CLI::Range(1, 60));
-    command->add_option("--archive", o.archive,
-                        "JSON file for the sets that no other beats in nonzeros, multiplications and "
-                        "condition at once");
+    CLI::Option* archive =
+        command->add_option("--archive", o.archive,
+                            "JSON file for the sets that no other beats in nonzeros, multiplications and "
+                            "condition at once");
+    CLI::Option* mirrors =
+        command
+            ->add_option(
+                "--mirrors", o.mirrors,
+                "seek lobes of a band that are closed under so many mirrors through the z axis, by the "
+                "instructions of their emitted product")
+            ->check(CLI::Range(1, 8));
+    mirrors->needs(band)->excludes(plain)->excludes(archive);
     command->add_option("--islands", o.islands, "populations that breed apart")
         ->capture_default_str()
         ->check(CLI::Range(1, 1024));

@@ -63,22 +63,39 @@ Json methods_to_json(int order) {
     return bands;
 }
 
+/// Bands 2 … N-1.
+Json to_json(const BandLobes& lobes) {
+    Json bands = Json::array();
+    for (const NamedTable& source : lobes.sources) {
+        const LobeTable& table = source.table;
+        const graph::Counts counts = kernels::factorization_counts(lobes.set.bands[table.use.value]);
+        bands.push_back({{"band", table.use.value},
+                         {"table", source.name},
+                         {"zeros", table.zeros[0]},
+                         {"multiplications", counts.multiplications()},
+                         {"instructions", counts.instructions()},
+                         {"cond", table.condition[0]}});
+    }
+    return bands;
+}
+
 Json to_json(const OrderKernels& order) {
     Json json{{"order", order.order}};
     if (order.lobes) {
-        const LobeTable& table = order.lobes->table;
+        const LobeTable& table = order.lobes->source.table;
         Json bands = Json::array();
         for (int l = 0; l < order.order; ++l)
-            bands.push_back(
-                {{"band", l},
-                 {"entries", (2 * l + 1) * (2 * l + 1)},
-                 {"zeros", table.zeros[l]},
-                 {"multiplications", kernels::factorization_multiplications(order.lobes->set.bands[l])},
-                 {"cond", table.condition[l]}});
-        json["table"] = order.lobes->table_name;
+            bands.push_back({{"band", l},
+                             {"entries", (2 * l + 1) * (2 * l + 1)},
+                             {"zeros", table.zeros[l]},
+                             {"multiplications",
+                              kernels::factorization_counts(order.lobes->set.bands[l]).multiplications()},
+                             {"cond", table.condition[l]}});
+        json["table"] = order.lobes->source.name;
         json["nonzeros"] = table.nonzeros;
         json["bands"] = bands;
     }
+    if (order.band_lobes) json["per_band"] = to_json(*order.band_lobes);
     json["methods"] = methods_to_json(order.order);
     Json kernels;
     for (const graph::Kernel& kernel : order.kernels) kernels[kernel.full_name()] = to_json(kernel);

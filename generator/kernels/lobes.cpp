@@ -16,7 +16,6 @@
 #include "exact/legendre.hpp"
 #include "exact/ring.hpp"
 #include "exact/spherical_harmonics.hpp"
-#include "graph/counts.hpp"
 #include "graph/passes.hpp"
 #include "graph/shared_sums.hpp"
 #include "graph/sizes.hpp"
@@ -321,12 +320,12 @@ int LobeSet::weight_start(int l) const {
     return start;
 }
 
-int factorization_multiplications(const exact::BandFactorization& band) {
+graph::Counts factorization_counts(const exact::BandFactorization& band) {
     Kernel kernel;
     kernel.inputs = {{"f", Kind::signal, band_size(band.band), ""}};
     graph::SharedSums sums = shared_sums(kernel, band.a_hat.transpose(), {0, 0, band_size(band.band)});
     for (int d = 0; d < band_size(band.band); ++d) kernel.store(d, sums.output(d), 0);
-    return graph::count_operations(graph::optimize(kernel)).total().multiplications();
+    return graph::count_operations(graph::optimize(kernel)).total();
 }
 
 Kernel build_factorize(const LobeSet& lobes) {

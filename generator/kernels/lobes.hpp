@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "exact/factorization.hpp"
-#include "graph/kernel.hpp"
+#include "graph/counts.hpp"
 
 namespace zonal::kernels {
 
@@ -29,8 +29,8 @@ struct LobeSet {
     int weight_start(int l) const;
 };
 
-/// Multiplications of the band's sparse product Âᵀ f as it is emitted, counted on its graph.
-int factorization_multiplications(const exact::BandFactorization& band);
+/// Operations of the band's sparse product Âᵀ f as it is emitted, counted on its graph.
+graph::Counts factorization_counts(const exact::BandFactorization& band);
 
 /// ẑ = Âᵀ f, per band.
 graph::Kernel build_factorize(const LobeSet& lobes);

@@ -23,6 +23,14 @@ inline AngledSet with_angles(const CandidateGrid& grid, const LobeSet& lobes) {
     return set;
 }
 
+/// The set on the grid, to which angles of its own are added.
+inline LobeSet put_on_grid(CandidateGrid& grid, const AngledSet& set) {
+    LobeSet lobes;
+    for (const AngledLobe& lobe : set)
+        lobes.push_back(grid.canonical(grid.add_theta(lobe.theta), grid.add_phi(lobe.phi)));
+    return lobes;
+}
+
 inline std::vector<exact::Direction<exact::Real>> directions_of(const AngledSet& set) {
     std::vector<exact::Direction<exact::Real>> directions;
     for (const AngledLobe& lobe : set) directions.push_back(lobe.direction());

@@ -100,6 +100,12 @@ int CandidateGrid::index_of_phi(double phi) const {
     return found == phi_indices_.end() ? -1 : found->second;
 }
 
+std::optional<Lobe> CandidateGrid::at(int theta, double phi) const {
+    const int index = index_of_phi(phi);
+    if (index < 0) return std::nullopt;
+    return canonical(theta, index);
+}
+
 Lobe CandidateGrid::random(Random& random) const {
     const int theta = random.below(static_cast<int>(thetas_.size()));
     return canonical(theta, random.below(static_cast<int>(phis_.size())));
@@ -108,8 +114,7 @@ Lobe CandidateGrid::random(Random& random) const {
 Lobe CandidateGrid::random_image(Lobe lobe, Random& random) const {
     const double quarter_turns = random.below(4) * M_PI / 2;
     const double phi = phi_values_[lobe.phi];
-    const int image = index_of_phi(quarter_turns + (random.chance(0.5) ? phi : -phi));
-    return image < 0 ? lobe : canonical(lobe.theta, image);
+    return at(lobe.theta, quarter_turns + (random.chance(0.5) ? phi : -phi)).value_or(lobe);
 }
 
 void CandidateGrid::evaluate(int l, Lobe lobe, double* row) const {

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -51,6 +52,9 @@ class CandidateGrid {
 
     /// The one name of a direction that has several: phi = 0 at the pole, phi < pi on the equator.
     Lobe canonical(int theta, int phi) const;
+
+    /// The lobe of that theta at any phi in radians; none where the grid has no such phi.
+    std::optional<Lobe> at(int theta, double phi) const;
 
     /// Any theta with any phi, as the paper draws them.
     Lobe random(Random& random) const;

@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -111,24 +110,11 @@ void exchange(std::vector<Island>& islands) {
     }
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The set on the grid, to which angles of its own are added.
-LobeSet put_on_grid(CandidateGrid& grid, const AngledSet& set) {
-    LobeSet lobes;
-    for (const AngledLobe& lobe : set) {
-        lobes.push_back(grid.canonical(grid.add_theta(lobe.theta), grid.add_phi(lobe.phi)));
-    }
-    return lobes;
-}
-
 }  // namespace
 
 SearchResult search_lobes(const Problem& problem, const SearchSettings& settings,
                           const std::atomic<bool>& stop, const SearchObserver& observer) {
-    const auto start_time = std::chrono::steady_clock::now();
+    Course course({settings.generations, settings.seconds, settings.genetic.stall_generations}, stop);
     CandidateGrid grid(problem.highest_band(),
                        settings.zero_bands.empty() ? usual_zero_bands(problem.bands) : settings.zero_bands);
     Pool pool(grid, settings.rings.empty() ? usual_rings(problem.bands) : settings.rings);
@@ -141,13 +127,8 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
     std::vector<Island> islands;
     for (int i = 0; i < settings.islands; ++i) islands.emplace_back(problem, grid, pool, settings, i, start);
 
-    const auto is_stopped = [&] {
-        return stop || (settings.seconds > 0 && seconds_since(start_time) >= settings.seconds);
-    };
-    Progress& progress = result.progress;
-    progress.generations = settings.generations;
-    int stalled = 0;
-    while (true) {
+    const auto is_stopped = [&] { return course.is_stopped(); };
+    do {
         tbb::parallel_for(0, settings.islands, [&](int i) { islands[i].step(is_stopped); });
         // One after another, so that the grid grows in the same way every time.
         for (Island& island : islands) {
@@ -157,39 +138,22 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
                 island.receive(lobes);
             }
         }
-        ++progress.generation;
-        ++stalled;
-        progress.evaluations = 0;
+        std::int64_t evaluations = 0;
         bool has_better = false;
         for (const Island& island : islands) {
-            progress.evaluations += island.population().evaluations();
+            evaluations += island.population().evaluations();
             if (!is_better(island.best(), result.best, settings.objective)) continue;
             result.best = island.best();
             has_better = true;
-            stalled = 0;
         }
         // Angles that came back to a candidate take its closed form.
         if (has_better) result.best.lobes = with_angles(grid, put_on_grid(grid, result.best.lobes));
-        if (progress.generation % settings.generations_between_exchanges == 0) exchange(islands);
-
-        progress.best = result.best.score;
-        progress.seconds = seconds_since(start_time);
-        const double by_generations =
-            progress.seconds / progress.generation * (settings.generations - progress.generation);
-        const double by_time = settings.seconds - progress.seconds;
-        progress.seconds_left = std::max(0.0, settings.generations == 0 ? by_time
-                                              : settings.seconds == 0   ? by_generations
-                                                                        : std::min(by_generations, by_time));
-        if (has_better) observer.on_better(result.best, progress);
-        observer.on_generation(progress);
-
-        const bool is_out_of_time = settings.seconds > 0 && progress.seconds >= settings.seconds;
-        const bool has_run_its_generations =
-            settings.generations > 0 && progress.generation >= settings.generations;
-        const bool is_told_when_to_end = settings.generations > 0 || settings.seconds > 0;
-        const bool has_stalled = !is_told_when_to_end && stalled >= settings.genetic.stall_generations;
-        if (stop || is_out_of_time || has_run_its_generations || has_stalled) break;
-    }
+        course.finish_generation(result.best, has_better, evaluations);
+        if (course.progress.generation % settings.generations_between_exchanges == 0) exchange(islands);
+        if (has_better) observer.on_better(result.best, course.progress);
+        observer.on_generation(course.progress);
+    } while (!course.is_over());
+    result.progress = course.progress;
     for (const Island& island : islands)
         for (const Solution& solution : island.front()) add_to_front(result.front, solution);
     std::ranges::stable_sort(result.front, {}, [](const Solution& s) { return s.score.nonzeros; });

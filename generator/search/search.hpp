@@ -1,12 +1,9 @@
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <functional>
 #include <optional>
 
+#include "search/course.hpp"
 #include "search/genetic.hpp"
-#include "search/refine.hpp"
 
 namespace zonal::search {
 
@@ -24,22 +21,6 @@ struct SearchSettings {
     Objective objective;
     Genetic genetic;
     std::optional<AngledSet> start;  ///< lobes to begin from
-};
-
-/// Where a search stands after a generation.
-struct Progress {
-    int generation = 0;
-    int generations = 0;  ///< wanted; 0 when not known
-    Score best;           ///< at 50 digits
-    std::int64_t evaluations = 0;
-    double seconds = 0;       ///< since the start
-    double seconds_left = 0;  ///< an estimate; 0 when not known
-};
-
-/// Called between generations, in the caller's thread.
-struct SearchObserver {
-    std::function<void(const Progress&)> on_generation = [](const Progress&) {};
-    std::function<void(const Solution&, const Progress&)> on_better = [](const Solution&, const Progress&) {};
 };
 
 struct SearchResult {

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "exact/real.hpp"
+#include "search/pool.hpp"
+
+namespace zonal::search {
+
+/// Lobes that mirrors through the z axis take into one another: equally spaced around the axis, and, off the
+/// mirrors, the mirror image of each.
+struct Orbit {
+    LobeSet lobes;           ///< `steps` around the axis, then their images in the same sense
+    std::vector<int> signs;  ///< -1 where what the group gives is the lobe's antipode
+    int steps = 1;           ///< around the axis
+    bool has_pairs = false;  ///< every lobe has an image that is another lobe
+
+    int size() const { return static_cast<int>(lobes.size()); }
+};
+
+/// The orbits of the candidates of a pool under the group that `mirrors` planes through the z axis generate,
+/// pi / mirrors apart, the first at phi = 0. (C_1v, C_2v, … in Schoenflies' notation; 0: no symmetry.) In a
+/// set made of whole orbits Y_l falls apart into a block for every irreducible representation: Fourier sums
+/// over the orbits do the same to the product by Â_l, and mirrors make these sums butterflies.
+class OrbitPool {
+  public:
+    /// Orbits of which a lobe has angles that the grid lacks are left out.
+    OrbitPool(const CandidateGrid& grid, const Pool& pool, int mirrors);
+
+    int size() const { return static_cast<int>(orbits_.size()); }
+    const Orbit& operator[](int number) const { return orbits_[number]; }
+
+    /// The orbits that make up a set; none where it holds a part of one.
+    std::optional<std::vector<int>> orbits_of(const LobeSet& lobes) const;
+
+  private:
+    std::vector<Orbit> orbits_;
+};
+
+/// Fourier sums over an orbit: the rows of an orthogonal-up-to-scale matrix, size x size, and what it costs
+/// to apply it.
+struct OrbitTransform {
+    exact::Matrix<double> rows;
+    int additions = 0;
+};
+OrbitTransform fourier_sums(int steps, bool has_pairs);
+
+}  // namespace zonal::search
