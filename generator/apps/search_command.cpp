@@ -210,11 +210,14 @@ void run(const Options& options) {
                             : search::search_lobes(problem, settings, stop_requested, observer);
     fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
     if (!result.best.score.is_allowed(options.objective)) {
-        throw UserError(
-            fmt::format("--{} {}: found no lobes of condition {:g} or less in {} generations; "
-                        "raise --generations, change --seed, or drop --plain",
-                        options.use().field, options.use().value, options.objective.condition_cap,
-                        result.progress.generation));
+        const char* next_step =
+            options.mirrors > 0
+                ? "take another number of --mirrors: not every one has orbits that make up a band"
+            : options.is_plain ? "raise --generations, change --seed, or drop --plain"
+                               : "raise --generations or change --seed";
+        throw UserError(fmt::format("--{} {}: found no lobes of condition {:g} or less in {} generations; {}",
+                                    options.use().field, options.use().value, options.objective.condition_cap,
+                                    result.progress.generation, next_step));
     }
     write_lobe_table(options.out, table_of(options, result.best, result.progress.generation));
     if (!options.archive.empty()) write_file_atomically(options.archive, archive_text(options, result));

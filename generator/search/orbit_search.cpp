@@ -287,6 +287,7 @@ SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSet
         course.finish_generation(result.best, has_better, evaluations);
         if (has_better) observer.on_better(result.best, course.progress);
         observer.on_generation(course.progress);
+        if (evaluations == 0) break;  // no island found regular orbits to begin from
     } while (!course.is_over());
     result.progress = course.progress;
     return result;

@@ -21,8 +21,8 @@ struct OrbitSettings {
 /// condition_weight * log2(cond_2). In every generation each island anneals a set of whole orbits, one or two
 /// of which give way to others at a time, by an estimate of the cost: the entries that are left in Fourier
 /// sums over each orbit, with the additions of these. The sets of least estimate are then factorized at 50
-/// digits and their products built and counted. The same settings and number of generations give the same
-/// result.
+/// digits and their products built and counted. Ends after a generation where no whole orbits make up the
+/// band. The same settings and number of generations give the same result.
 SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSettings& orbits,
                            const EmittedCost& emitted_cost, const std::atomic<bool>& stop,
                            const SearchObserver& observer = {});

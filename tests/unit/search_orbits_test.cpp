@@ -165,7 +165,8 @@ TEST(OrbitSearch, resumed_is_never_worse) {
 
 /// Mirrors of which no orbits make up 2l+1 independent lobes.
 TEST(OrbitSearch, ends_without_lobes_where_there_are_none) {
-    const SearchResult result = search_orbits(3, settings_for(1), {4, 10}, instructions, kNoStop);
+    const SearchResult result = search_orbits(3, settings_for(100), {4, 10}, instructions, kNoStop);
+    EXPECT_EQ(result.progress.generation, 1);
     EXPECT_TRUE(result.best.score.is_singular());
     EXPECT_TRUE(result.best.lobes.empty());
 }
