@@ -66,9 +66,11 @@ HWY_INLINE void store_one_block(D d, hn::Vec<D> values, T* p) {
         const hn::Half<D> half;
         hn::StoreU(kIndex == 0 ? hn::LowerHalf(half, values) : hn::UpperHalf(half, values), half, p);
     } else {
-#if HWY_TARGET == HWY_AVX3
-        const __m512i bits = hn::BitCast(hn::RebindToUnsigned<D>(), values).raw;
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm512_extracti32x4_epi32(bits, kIndex));
+#if HWY_TARGET == HWY_AVX3  // typed as the values are: g++ then extracts while storing, without a shuffle
+        if constexpr (sizeof(T) == 4)
+            _mm_storeu_ps(p, _mm512_extractf32x4_ps(values.raw, kIndex));
+        else
+            _mm_storeu_pd(p, _mm512_extractf64x2_pd(values.raw, kIndex));
 #endif
     }
 }
