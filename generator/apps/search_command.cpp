@@ -266,7 +266,7 @@ void add_search_command(CLI::App& app) {
                 "--mirrors", o.mirrors,
                 "seek lobes of a band that are closed under so many mirrors through the z axis, by the "
                 "instructions of their emitted product")
-            ->check(CLI::Range(1, 8));
+            ->check(CLI::Range(1, search::kMostMirrors));
     mirrors->needs(band)->excludes(plain)->excludes(archive);
     command->add_option("--islands", o.islands, "populations that breed apart")
         ->capture_default_str()

@@ -81,7 +81,8 @@ OrbitTransform fourier_sums(int steps, bool has_pairs) {
         }
         row += 1 + has_sine;
     }
-    constexpr std::array<int, 9> kAdditions{0, 0, 2, 4, 6, 16, 14, 36, 20};  // of a real Fourier transform
+    // Instructions of a real Fourier transform, about.
+    constexpr std::array<int, kMostMirrors + 1> kAdditions{0, 0, 2, 4, 6, 16, 14, 36, 20, 40, 42, 100, 44};
     const int additions = kAdditions.at(steps);
     if (!has_pairs) return {around, additions};
     exact::Matrix<double> both(2 * steps, 2 * steps);

@@ -8,6 +8,9 @@
 
 namespace zonal::search {
 
+/// Most mirrors a set may have.
+inline constexpr int kMostMirrors = 12;
+
 /// Lobes that mirrors through the z axis take into one another: equally spaced around the axis, and, off the
 /// mirrors, the mirror image of each.
 struct Orbit {

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Searches for lobes closed under mirrors, of any length: every band under 1 to 6 mirrors, the seed and the meridians
+# Searches for lobes closed under mirrors, of any length: every band under some numbers of mirrors, the seed and the meridians
 # change with every round; the table of fewest instructions (then of the least condition) of each band is kept.
 # A line a search: what it found, its options and the best so far. Stop with Ctrl-C.
-# Usage: nice bash tests/bench/mirror_search.sh FOLDER [SECONDS_EACH [ZONAL_GEN [FIRST_SEED [BANDS]]]] | tee -a tests/bench/mirror_search.log
+# Usage: nice bash tests/bench/mirror_search.sh FOLDER [SECONDS_EACH [ZONAL_GEN [FIRST_SEED [BANDS [MIRRORS]]]]] | tee -a tests/bench/mirror_search.log
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 best=${1:?the folder for the best tables}
 seconds=${2:-60}
 gen=${3:-build/release/bin/zonal-gen}
 bands=${5:-3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18}
+numbers=${6:-1 2 3 4 5 6}
 mkdir -p "$best"
 
 search() { # BAND MIRRORS OPTIONS...
@@ -36,7 +37,7 @@ search() { # BAND MIRRORS OPTIONS...
 rings=("" "--rings 12" "--rings 24" "--rings 8 10 12")
 for ((seed = ${4:-1};; ++seed)); do
   for band in $bands; do
-    for mirrors in 1 2 3 4 5 6; do
+    for mirrors in $numbers; do
       search "$band" "$mirrors" --seed "$seed" ${rings[$(((seed - 1) % 4))]}
     done
   done

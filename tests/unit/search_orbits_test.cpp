@@ -108,7 +108,7 @@ TEST(OrbitPool, knows_the_orbits_of_a_whole_set_only) {
 }
 
 TEST(FourierSums, are_orthogonal) {
-    for (int steps = 1; steps <= 8; ++steps) {
+    for (int steps = 1; steps <= kMostMirrors; ++steps) {
         for (const bool has_pairs : {false, true}) {
             const OrbitTransform transform = fourier_sums(steps, has_pairs);
             exact::Matrix<double> products = transform.rows * transform.rows.transpose();
