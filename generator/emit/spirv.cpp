@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "emit/text.hpp"
 #include "graph/register_schedule.hpp"
@@ -70,6 +71,8 @@ class Memory {
     /// Instructions that make %name the value at `index` of an input.
     virtual std::string load(int input, int index, const std::string& name) = 0;
     virtual std::string store(int index, const std::string& value) = 0;
+    /// Between two steps of a kernel.
+    virtual std::string end_step() = 0;
 };
 
 /// The arithmetic of a kernel, and its loads and stores.
@@ -89,9 +92,15 @@ class BodyPrinter {
     }
 
     std::string print() {
+        std::map<int, int> step_of;  // by the element that is stored
+        for (const graph::Store& store : kernel_.stores) step_of[store.index] = store.step;
+        int step = 0;
         for (const graph::Statement& statement :
              graph::schedule_for_registers(kernel_, form_.has_channels ? 3 : 1)) {
             const Node& node = kernel_.graph[statement.node];
+            if (statement.is_store &&
+                std::exchange(step, step_of[statement.index]) != step_of[statement.index])
+                body_ += memory_.end_step();
             if (statement.is_store)
                 body_ += memory_.store(statement.index, operand(statement.node));
             else if (node.op == Op::input)
@@ -297,6 +306,16 @@ class Buffers : public Memory {
         return text;
     }
 
+    /// Compilers join stores of neighbours, and the first waits for the last. (Mesa's holds 100 registers
+    /// more for blocks of order 6.) Not across a barrier, and one among invocations that run together is no
+    /// instruction there.
+    std::string end_step() override {
+        constexpr unsigned kSubgroup = 3, kAcquireRelease = 0x8, kUniformMemory = 0x40;
+        const std::string scope = declarations_.unsigned_integer(kSubgroup);
+        const std::string semantics = declarations_.unsigned_integer(kAcquireRelease | kUniformMemory);
+        return fmt::format("OpMemoryBarrier {} {}\n", scope, semantics);
+    }
+
   private:
     int channels(Kind kind) const { return form_.has_channels && kind == Kind::signal ? 3 : 1; }
 
@@ -352,6 +371,8 @@ class Parameters : public Memory {
         const std::string place = fmt::format("{}out{}_p", prefix_, index);
         return access(kernel_.output, index, place) + fmt::format("OpStore %{} {}\n", place, value);
     }
+
+    std::string end_step() override { return {}; }
 
   private:
     std::vector<const graph::Array*> arrays() const {

@@ -28,10 +28,6 @@ std::map<std::string, PipelineStatistics> statistics_of_all(const std::string& f
     return all;
 }
 
-/// Dense matrices of all bands, and 2N - 1 lobes of every band, take more than what is asked of the others.
-const std::map<std::string, std::uint32_t> kOwnLimits{{"order06_blocks", 192},
-                                                      {"order06_stable_rotate_zhf", 192}};
-
 class RegisterUse : public testing::TestWithParam<const char*> {
   protected:
     static const std::map<std::string, PipelineStatistics>& all() {
@@ -47,8 +43,7 @@ class RegisterUse : public testing::TestWithParam<const char*> {
         ASSERT_TRUE(all().contains(stem + "rotate"));
         for (const auto& [name, statistics] : all()) {
             if (!name.starts_with(stem) || name.ends_with("_rgb") || name.ends_with("_precise")) continue;
-            const auto own = kOwnLimits.find(name);
-            EXPECT_LE(statistics.vgprs, own == kOwnLimits.end() ? limit : own->second) << name;
+            EXPECT_LE(statistics.vgprs, limit) << name;
         }
     }
 };
