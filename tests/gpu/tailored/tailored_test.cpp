@@ -183,7 +183,8 @@ class Tailored : public testing::TestWithParam<int> {
             EXPECT_LE(error, tables.plan.bound + excess) << "order " << order << ", rotation\n" << turns[k];
             largest = std::max(largest, error);
         }
-        EXPECT_GT(largest, tables.plan.bound / 50) << "the bound says nothing";
+        // The bound adds what bands lose at worst; in a rotation some of it cancels.
+        EXPECT_GT(largest, tables.plan.bound / (5 * order)) << "the bound says nothing";
         // A row of the README's table.
         fmt::print("| {} | {:g} | {} | {} | {} | {:.2g} | {:.1e} | {:.1e} |\n", order, budget,
                    sizeof(T) == 4 ? "32F" : "16F", tables.plan.face_size, fmt::join(tables.plan.levels, " "),
