@@ -24,6 +24,14 @@ const std::map<int, unsigned> kTailoredRegisters{{3, 48}, {4, 84}, {5, 112}, {6,
 
 std::string tailored(int order) { return fmt::format("order{:02}_tailored_rgb", order); }
 
+zonal::gpu::Words tailored_module(int order) {
+    const auto text = [&](const char* suffix) {
+        return zonal::gpu::read_text(fs::path(ZONAL_GENERATED_GLSL) /
+                                     fmt::format("order{:02}{}.glsl", order, suffix));
+    };
+    return zonal::gpu::compiled(zonal::gpu::tailored_compute_shader(order, text(""), text("_tailored")));
+}
+
 /// Statistics of every committed compute module, by its name (order04_rotate_rgb), and of the tailored
 /// rotations.
 std::map<std::string, PipelineStatistics> statistics_of_all(const std::string& family) {
@@ -34,14 +42,8 @@ std::map<std::string, PipelineStatistics> statistics_of_all(const std::string& f
         if (name.find('_') == std::string::npos) continue;  // functions with linkage: no entry point
         all[name] = statistics_of(device, zonal::gpu::read_shader(entry.path()));
     }
-    for (const auto& [order, registers] : kTailoredRegisters) {
-        const auto text = [&](const char* suffix) {
-            return zonal::gpu::read_text(fs::path(ZONAL_GENERATED_GLSL) /
-                                         fmt::format("order{:02}{}.glsl", order, suffix));
-        };
-        all[tailored(order)] = statistics_of(device, zonal::gpu::compiled(zonal::gpu::tailored_compute_shader(
-                                                         order, text(""), text("_tailored"))));
-    }
+    for (const auto& [order, registers] : kTailoredRegisters)
+        all[tailored(order)] = statistics_of(device, tailored_module(order));
     return all;
 }
 
