@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <utility>
 
 #include "emit/text.hpp"
 #include "graph/register_schedule.hpp"
@@ -38,15 +37,9 @@ class BodyPrinter {
     }
 
     SpirvBody print() {
-        std::map<int, int> step_of;  // by the element that is stored
-        for (const graph::Store& store : kernel_.stores) step_of[store.index] = store.step;
-        int step = 0;
         for (const graph::Statement& statement :
              graph::schedule_for_registers(kernel_, form_.has_channels ? 3 : 1)) {
             const Node& node = kernel_.graph[statement.node];
-            if (statement.is_store &&
-                std::exchange(step, step_of[statement.index]) != step_of[statement.index])
-                body_ += memory_.end_step();
             if (statement.is_store)
                 body_ += memory_.store(statement.index, operand(statement.node));
             else if (node.op == Op::input)

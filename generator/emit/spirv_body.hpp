@@ -37,8 +37,6 @@ class SpirvMemory {
     /// Instructions that make %name the value at `index` of an input.
     virtual std::string load(int input, int index, const std::string& name) = 0;
     virtual std::string store(int index, const std::string& value) = 0;
-    /// Between two steps of a kernel.
-    virtual std::string end_step() = 0;
 };
 
 /// Instructions, and identifiers of the values that no compiler may contract or reassociate.

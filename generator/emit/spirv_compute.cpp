@@ -62,10 +62,13 @@ class Buffers : public SpirvMemory {
         return text + fmt::format("%{} = OpCompositeConstruct %rgb{}\n", name, parts);
     }
 
+    /// Compilers join stores of neighbours, and the first waits for the last. (Mesa's holds 100 registers
+    /// more for blocks of order 6.) Where neighbours belong to different steps they must not.
     std::string store(int index, const std::string& value) override {
         const std::string place = fmt::format("{}_{}", output(), index);
         if (channels(kernel_.output.kind) == 1)
-            return access(output(), index, place) + fmt::format("OpStore %{}_p {}\n", place, value);
+            return access(output(), index, place) +
+                   fmt::format("OpStore %{}_p {}{}\n", place, value, kernel_.has_steps() ? " Volatile" : "");
         std::string text;
         for (int c = 0; c < 3; ++c) {
             const std::string part = fmt::format("{}_{}", place, "rgb"[c]);
@@ -74,16 +77,6 @@ class Buffers : public SpirvMemory {
                                 value, c);
         }
         return text;
-    }
-
-    /// Compilers join stores of neighbours, and the first waits for the last. (Mesa's holds 100 registers
-    /// more for blocks of order 6.) Not across a barrier, and one among invocations that run together is no
-    /// instruction there.
-    std::string end_step() override {
-        constexpr unsigned kSubgroup = 3, kAcquireRelease = 0x8, kUniformMemory = 0x40;
-        const std::string scope = declarations_.unsigned_integer(kSubgroup);
-        const std::string semantics = declarations_.unsigned_integer(kAcquireRelease | kUniformMemory);
-        return fmt::format("OpMemoryBarrier {} {}\n", scope, semantics);
     }
 
   private:

@@ -43,8 +43,6 @@ class Parameters : public SpirvMemory {
         return access(kernel_.output, index, place) + fmt::format("OpStore %{} {}\n", place, value);
     }
 
-    std::string end_step() override { return {}; }
-
   private:
     std::vector<const graph::Array*> arrays() const {
         std::vector<const graph::Array*> all;

@@ -53,6 +53,10 @@ struct Kernel {
         return is_of_kind(output) || std::any_of(inputs.begin(), inputs.end(), is_of_kind);
     }
 
+    bool has_steps() const {
+        return std::any_of(stores.begin(), stores.end(), [](const Store& store) { return store.step != 0; });
+    }
+
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
     void store(int index, Value value, int group, int step = 0) {
         stores.push_back({index, value.id, group, step});

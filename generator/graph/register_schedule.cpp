@@ -39,13 +39,9 @@ std::vector<Id> operands_of(const Kernel& kernel, const Statement& statement) {
     return all;
 }
 
-bool has_steps(const Kernel& kernel) {
-    return std::ranges::any_of(kernel.stores, [](const Store& store) { return store.step != 0; });
-}
-
 /// The order of `schedule`, group by group, or step by step where there are steps.
 Groups scheduled_groups(Kernel kernel) {
-    if (has_steps(kernel))
+    if (kernel.has_steps())
         for (Store& store : kernel.stores) store.group = store.step;
     std::map<int, int> group_of;  // by the element that is stored
     for (const Store& store : kernel.stores) group_of[store.index] = store.group;
@@ -246,7 +242,7 @@ std::vector<Statement> schedule_for_registers(const Kernel& kernel, int channels
     };
     consider(store_at_once(built));
     std::vector<Groups> forms{built};
-    if (!has_steps(kernel)) {
+    if (!kernel.has_steps()) {
         forms.push_back(all_as_one(built));
         if (kernel.uses(Kind::rotation)) forms.push_back(signal_first(kernel, built));
     }
