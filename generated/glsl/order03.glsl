@@ -72,7 +72,7 @@
 // The cheapest exact rotation of three vectors at once.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 9 values, index l(l+1)+m.
 // o : 9 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
@@ -211,9 +211,10 @@ void zonal_order3_rotate_channels(float R[9], vec3 f[9], out vec3 o[9]) {
 // The cheapest exact rotation of one vector.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 9 values, index l(l+1)+m.
 // o : 9 values, index l(l+1)+m.
+// Three channels are turned by rotate_channels.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
 void zonal_order3_rotate(float R[9], float f[9], out float o[9]) {
@@ -286,7 +287,7 @@ void zonal_order3_rotate(float R[9], vec3 f[9], out vec3 o[9]) {
 
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // scalars : 34 values, for `apply`.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
@@ -592,7 +593,7 @@ void zonal_order3_apply(float scalars[34], vec3 f[9], out vec3 o[9]) {
 // The most accurate exact rotation, mirrors included.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 9 values, index l(l+1)+m.
 // o : 9 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -879,7 +880,7 @@ void zonal_order3_rotate_accurate(float R[9], vec3 f[9], out vec3 o[9]) {
 
 // The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // dense : 35 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: see the banner.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
@@ -1189,7 +1190,7 @@ void zonal_order3_resample(vec3 samples[9], out vec3 o[9]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 15 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -1246,7 +1247,7 @@ void zonal_order3_lobes(float R[9], out float directions[15]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 9 values, index l(l+1)+m.
 // o : 9 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -1642,7 +1643,7 @@ void zonal_order3_per_band_resample(vec3 samples[9], out vec3 o[9]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 27 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -1987,7 +1988,7 @@ void zonal_order3_stable_resample(vec3 samples[15], out vec3 o[9]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 15 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -2056,7 +2057,7 @@ void zonal_order3_stable_lobes(float R[9], out float directions[15]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 9 values, index l(l+1)+m.
 // o : 9 values, index l(l+1)+m.
 // Cost: see the banner.

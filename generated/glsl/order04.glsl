@@ -74,7 +74,7 @@
 // The cheapest exact rotation of three vectors at once.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 16 values, index l(l+1)+m.
 // o : 16 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
@@ -384,11 +384,12 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
 // The cheapest exact rotation of one vector.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 16 values, index l(l+1)+m.
 // o : 16 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 // odd bands.
+// Three channels are turned by rotate_channels.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
@@ -545,7 +546,7 @@ void zonal_order4_rotate(float R[9], vec3 f[16], out vec3 o[16]) {
 
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // scalars : 33 values, for `apply`.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 // odd bands.
@@ -914,7 +915,7 @@ void zonal_order4_apply(float scalars[33], vec3 f[16], out vec3 o[16]) {
 // The most accurate exact rotation, mirrors included.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 16 values, index l(l+1)+m.
 // o : 16 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -1799,7 +1800,7 @@ void zonal_order4_rotate_accurate(float R[9], vec3 f[16], out vec3 o[16]) {
 
 // The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // dense : 84 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: see the banner.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
@@ -2548,7 +2549,7 @@ void zonal_order4_resample(vec3 samples[16], out vec3 o[16]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 21 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -2614,7 +2615,7 @@ void zonal_order4_lobes(float R[9], out float directions[21]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 16 values, index l(l+1)+m.
 // o : 16 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -3548,7 +3549,7 @@ void zonal_order4_per_band_resample(vec3 samples[16], out vec3 o[16]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 48 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -4241,7 +4242,7 @@ void zonal_order4_stable_resample(vec3 samples[28], out vec3 o[16]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 21 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -4331,7 +4332,7 @@ void zonal_order4_stable_lobes(float R[9], out float directions[21]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 16 values, index l(l+1)+m.
 // o : 16 values, index l(l+1)+m.
 // Cost: see the banner.

@@ -14,7 +14,7 @@
 // Functions for GLSL 4.50 and ES 3.20, highp; to be put behind those of order04.glsl.
 
 // Rotates bands 0 and 1: f'(w) = f(R^T w).
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 4 values, index l(l+1)+m.
 // o : 4 values, index l(l+1)+m.
 // Cost: see the banner.

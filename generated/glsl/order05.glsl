@@ -75,7 +75,7 @@
 // The cheapest exact rotation of three vectors at once.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 25 values, index l(l+1)+m.
 // o : 25 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
@@ -581,11 +581,12 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
 // The cheapest exact rotation of one vector.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 25 values, index l(l+1)+m.
 // o : 25 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 // odd bands.
+// Three channels are turned by rotate_channels.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
@@ -833,7 +834,7 @@ void zonal_order5_rotate(float R[9], vec3 f[25], out vec3 o[25]) {
 
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // scalars : 52 values, for `apply`.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 // odd bands.
@@ -1434,7 +1435,7 @@ void zonal_order5_apply(float scalars[52], vec3 f[25], out vec3 o[25]) {
 // The most accurate exact rotation, mirrors included.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 25 values, index l(l+1)+m.
 // o : 25 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -3409,7 +3410,7 @@ void zonal_order5_rotate_accurate(float R[9], vec3 f[25], out vec3 o[25]) {
 
 // The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // dense : 165 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: see the banner.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
@@ -4940,7 +4941,7 @@ void zonal_order5_resample(vec3 samples[25], out vec3 o[25]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 27 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -5027,7 +5028,7 @@ void zonal_order5_lobes(float R[9], out float directions[27]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 25 values, index l(l+1)+m.
 // o : 25 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -6713,7 +6714,7 @@ void zonal_order5_per_band_resample(vec3 samples[25], out vec3 o[25]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 75 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -7877,7 +7878,7 @@ void zonal_order5_stable_resample(vec3 samples[45], out vec3 o[25]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 27 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -7988,7 +7989,7 @@ void zonal_order5_stable_lobes(float R[9], out float directions[27]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 25 values, index l(l+1)+m.
 // o : 25 values, index l(l+1)+m.
 // Cost: see the banner.

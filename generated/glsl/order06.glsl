@@ -76,7 +76,7 @@
 // The cheapest exact rotation of three vectors at once.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 36 values, index l(l+1)+m.
 // o : 36 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
@@ -834,11 +834,12 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
 // The cheapest exact rotation of one vector.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 36 values, index l(l+1)+m.
 // o : 36 values, index l(l+1)+m.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 // odd bands.
+// Three channels are turned by rotate_channels.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
@@ -1208,7 +1209,7 @@ void zonal_order6_rotate(float R[9], vec3 f[36], out vec3 o[36]) {
 
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // scalars : 73 values, for `apply`.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 // odd bands.
@@ -2103,7 +2104,7 @@ void zonal_order6_apply(float scalars[73], vec3 f[36], out vec3 o[36]) {
 // The most accurate exact rotation, mirrors included.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 36 values, index l(l+1)+m.
 // o : 36 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -5768,7 +5769,7 @@ void zonal_order6_rotate_accurate(float R[9], vec3 f[36], out vec3 o[36]) {
 
 // The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 // Turns the function, not the frame.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // dense : 286 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: see the banner.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
@@ -8564,7 +8565,7 @@ void zonal_order6_resample(vec3 samples[36], out vec3 o[36]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 33 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -8666,7 +8667,7 @@ void zonal_order6_lobes(float R[9], out float directions[33]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 36 values, index l(l+1)+m.
 // o : 36 values, index l(l+1)+m.
 // Cost: see the banner.
@@ -11442,7 +11443,7 @@ void zonal_order6_per_band_resample(vec3 samples[36], out vec3 o[36]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 108 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -13410,7 +13411,7 @@ void zonal_order6_stable_resample(vec3 samples[66], out vec3 o[36]) {
 }
 
 // Turns the lobe directions of the table: R times each.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 33 values, unit vectors x, y, z, in table order.
 // Cost: see the banner.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
@@ -13542,7 +13543,7 @@ void zonal_order6_stable_lobes(float R[9], out float directions[33]) {
 
 // Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 // Bands are independent: a NaN stays in its band.
-// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 36 values, index l(l+1)+m.
 // o : 36 values, index l(l+1)+m.
 // Cost: see the banner.

@@ -75,17 +75,13 @@ std::string print_glsl_statements(const Kernel& kernel, bool has_channels, int i
 
 std::string print_glsl_kernel(const Unit& unit, const Kernel& original) {
     const Kernel kernel = with_allowed_names(original);
-    std::string text = "\n";
-    for (const auto& lines : {purpose_lines(kernel), precondition_lines(kernel), source_lines(kernel)})
-        for (const std::string& line : lines) text += "// " + line + "\n";
-    text += print_function(unit, kernel, false);
+    std::string text = fmt::format("\n{}{}", shader_comment(kernel), print_function(unit, kernel, false));
     if (kernel.uses(Kind::signal)) text += print_function(unit, kernel, true);
     return text;
 }
 
 std::string print_glsl(const Unit& unit) {
-    std::string text;
-    for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
+    std::string text = comment("//", banner_lines(unit));
     text +=
         "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index "
         "l(l+1)+m; a vec3\n// holds three channels.\n";

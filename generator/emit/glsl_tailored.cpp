@@ -47,9 +47,7 @@ std::string banner(const Unit& unit, const TailoredRotation& rotation) {
     append_key(lines, "cost", cost_texts(unit, rotation));
     append_key(lines, "bound", {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
     append_key(lines, "source", graph::kernel_named(unit.kernels, "resample").sources);
-    std::string text;
-    for (const std::string& line : lines) text += "// " + line + "\n";
-    return text;
+    return comment("//", lines);
 }
 
 /// A direction whose bilinear filter stays within a face, whatever level is looked up.

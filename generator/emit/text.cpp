@@ -57,7 +57,9 @@ std::vector<std::string> banner_lines(const Unit& unit) {
     }
     std::vector<std::string> lines = opening_lines(unit);
     append_key(lines, "cost", costs);
-    bounds.push_back("of |f|, with fused instructions; the excess times |R R^T - I|_F is added");
+    bounds.push_back(bounds.empty()
+                         ? "none published"
+                         : "of |f|, with fused instructions; the excess times |R R^T - I|_F is added");
     append_key(lines, "bound", bounds);
     append_key(lines, "source", unit.sources);
     return lines;
@@ -76,7 +78,8 @@ std::vector<std::string> purpose_lines(const graph::Kernel& kernel) {
     std::istringstream summary(kernel.summary);
     for (std::string line; std::getline(summary, line);) lines.push_back(line);
     const auto describe = [&](const graph::Array& array) {
-        lines.push_back(fmt::format("{} : {} values, {}.", array.name, array.size, array.comment));
+        const std::string domain = array.name == "R" ? fmt::format(", {}", domain_text(kernel)) : "";
+        lines.push_back(fmt::format("{} : {} values, {}{}.", array.name, array.size, array.comment, domain));
     };
     for (const graph::Array& array : kernel.inputs) describe(array);
     describe(kernel.output);
@@ -87,6 +90,19 @@ std::vector<std::string> precondition_lines(const graph::Kernel& kernel) {
     if (!kernel.needs_proper_rotation || kernel.inputs[0].name != "R") return {};
     return {"Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the",
             "odd bands."};
+}
+
+std::string comment(const std::string& sign, const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += fmt::format("{} {}\n", sign, line);
+    return text;
+}
+
+std::string shader_comment(const graph::Kernel& kernel) {
+    std::string text = comment("//", purpose_lines(kernel)) + comment("//", precondition_lines(kernel));
+    if (!kernel.for_channels.empty())
+        text += fmt::format("// Three channels are turned by {}.\n", kernel.for_channels);
+    return text + comment("//", source_lines(kernel));
 }
 
 std::vector<std::string> source_lines(const graph::Kernel& kernel) {

@@ -37,6 +37,12 @@ std::vector<std::string> precondition_lines(const graph::Kernel& kernel);
 
 std::vector<std::string> source_lines(const graph::Kernel& kernel);
 
+/// Lines behind a language's sign of comments.
+std::string comment(const std::string& sign, const std::vector<std::string>& lines);
+
+/// What stands in front of a shader's function, behind //.
+std::string shader_comment(const graph::Kernel& kernel);
+
 /// A constant as a decimal of at most 17 digits that reads back as the double nearest to it.
 std::string literal(const graph::Number& value);
 

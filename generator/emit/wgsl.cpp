@@ -54,10 +54,7 @@ std::string print_function(const Unit& unit, const Kernel& kernel, bool has_chan
 }
 
 std::string print_kernel(const Unit& unit, const Kernel& kernel) {
-    std::string text = "\n";
-    for (const auto& lines : {purpose_lines(kernel), precondition_lines(kernel), source_lines(kernel)})
-        for (const std::string& line : lines) text += "// " + line + "\n";
-    text += print_function(unit, kernel, false);
+    std::string text = fmt::format("\n{}{}", shader_comment(kernel), print_function(unit, kernel, false));
     if (kernel.uses(Kind::signal)) text += print_function(unit, kernel, true);
     return text;
 }
@@ -65,8 +62,7 @@ std::string print_kernel(const Unit& unit, const Kernel& kernel) {
 }  // namespace
 
 std::string print_wgsl(const Unit& unit) {
-    std::string text;
-    for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
+    std::string text = comment("//", banner_lines(unit));
     for (const Kernel& kernel : unit.kernels) text += print_kernel(unit, kernel);
     return text;
 }

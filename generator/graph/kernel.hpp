@@ -23,6 +23,9 @@ struct Store {
     int index = 0;
     Id value = -1;
     int group = 0;
+    /// For machines where few values may wait: steps, one after another, that store what is alike in what it
+    /// needs. A kernel has them, instead of its groups, where they differ.
+    int step = 0;
 };
 
 /// One function to emit: its graph, its arguments and what its comment says.
@@ -50,8 +53,14 @@ struct Kernel {
         return is_of_kind(output) || std::any_of(inputs.begin(), inputs.end(), is_of_kind);
     }
 
+    bool has_steps() const {
+        return std::any_of(stores.begin(), stores.end(), [](const Store& store) { return store.step != 0; });
+    }
+
     Value input(int array, int index) { return {&graph, graph.input(inputs[array].kind, array, index)}; }
-    void store(int index, Value value, int group) { stores.push_back({index, value.id, group}); }
+    void store(int index, Value value, int group, int step = 0) {
+        stores.push_back({index, value.id, group, step});
+    }
 };
 
 /// The kernel of that full name. Throws std::logic_error where there is none.

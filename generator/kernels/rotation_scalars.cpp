@@ -7,8 +7,7 @@ namespace zonal::kernels {
 using graph::Value;
 
 graph::Array rotation_array() {
-    return {"R", graph::Kind::rotation, 9,
-            "row-major, dimensionless, orthonormal rows, determinant +1 or -1"};
+    return {"R", graph::Kind::rotation, 9, "row-major, dimensionless, orthonormal rows"};
 }
 
 Matrix3 rotation_rows(graph::Kernel& kernel) {

@@ -64,8 +64,10 @@ Kernel build_blocks(int order) {
     kernel.has_bound = true;
     const auto all = dense_blocks(kernel, rotation_rows(kernel), order);
     int index = 0;
+    // A step is a column and its mirror image: made of that column of the band before, or of those beside it.
     for (int l = 0; l < order; ++l)
-        for (const Value& entry : all[l]) kernel.store(index++, entry, l);
+        for (int k = 0; k < static_cast<int>(all[l].size()); ++k)
+            kernel.store(index++, all[l][k], l, std::abs(k % (2 * l + 1) - l));
     return graph::optimize(kernel);
 }
 

@@ -83,9 +83,7 @@ TEST_P(Accuracy, plain_modules_are_within_the_published_bounds) {
     std::vector<accuracy::Contestant<float>> contestants;
     for (const ReferenceKernel& kernel : reference_kernels(order)) {
         if (!kernel.makes_turns()) continue;
-        const std::string published = kernel.name == "prepare"             ? "apply"
-                                      : kernel.name == "stable_rotate_zhf" ? "stable::rotate_zhf"
-                                                                           : kernel.name;
+        const std::string published = bound_name(order, kernel, 1);
         const auto batch = std::make_shared<Batch>(order, kernel);
         const auto contestant = [&](auto rotate) {
             return accuracy::with_mirrors<float>(order,

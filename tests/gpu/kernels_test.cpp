@@ -1,14 +1,8 @@
 // Every emitted kernel on the Vulkan device beside the generated C++ kernel that was compiled without fused
 // instructions: random and hard rotations, hard signals, NaN, vectors in place, a last workgroup not full.
-//
-// Every kernel of orders 2 to 10 runs as a precise and as a plain module (those that turn: accuracy_test).
-// GLSL and three channels: every kernel up to order 6. Above, where lavapipe compiles for minutes, GLSL of
-// one channel leaves out rotate_accurate, blocks, rotate_zhf and the kernels of the ring, and three channels
-// are those of rotate and resample, unless ZONAL_GPU_TESTS=all is in the environment.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <set>
 
 #include "gpu/emitted_shaders.hpp"
@@ -17,16 +11,6 @@
 
 namespace zonal::gpu {
 namespace {
-
-/// Whether GLSL, or three channels, of a kernel are run.
-bool is_run(int order, const ReferenceKernel& kernel, int channels) {
-    const char* wanted = std::getenv("ZONAL_GPU_TESTS");
-    if (channels == 3 && !kernel.has_signal()) return false;
-    if (order <= 6 || (wanted != nullptr && std::string(wanted) == "all")) return true;
-    if (channels == 3) return kernel.name == "rotate" || kernel.name == "resample";
-    return kernel.name != "rotate_accurate" && kernel.name != "blocks" && kernel.name != "rotate_zhf" &&
-           !kernel.name.starts_with("stable_");
-}
 
 class Kernels : public testing::TestWithParam<int> {
   protected:
@@ -100,19 +84,18 @@ TEST_P(Kernels, plain_modules_are_within_bounds_of_cpp) {
 
 TEST_P(Kernels, modules_of_three_channels_are_within_bounds_of_cpp) {
     for (const ReferenceKernel& kernel : reference_kernels(order()))
-        if (is_run(order(), kernel, 3)) expect_within_bounds("rgb", kernel, module(kernel.name + "_rgb"), 3);
+        if (kernel.has_signal()) expect_within_bounds("rgb", kernel, module(kernel.name + "_rgb"), 3);
 }
 
 TEST_P(Kernels, glsl_functions_are_within_bounds_of_cpp) {
     EXPECT_NO_THROW(compiled(whole_file_shader(order())));
     for (const ReferenceKernel& kernel : reference_kernels(order()))
-        if (is_run(order(), kernel, 1))
-            expect_within_bounds("GLSL", kernel, compiled(compute_shader(order(), kernel, 1)), 1);
+        expect_within_bounds("GLSL", kernel, compiled(compute_shader(order(), kernel, 1)), 1);
 }
 
 TEST_P(Kernels, glsl_functions_on_vec3_are_within_bounds_of_cpp) {
     for (const ReferenceKernel& kernel : reference_kernels(order()))
-        if (is_run(order(), kernel, 3))
+        if (kernel.has_signal())
             expect_within_bounds("GLSL vec3", kernel, compiled(compute_shader(order(), kernel, 3)), 3);
 }
 

@@ -14,12 +14,13 @@ namespace {
 /// Instructions that copy arrays between a vector's place in buffers and variables of a function.
 class Caller {
   public:
-    Caller(int order, const ReferenceKernel& kernel)
-        : name_(fmt::format("zonal_order{}_{}", order, kernel.name)),
+    /// `channels`: 1, or 3 for the function whose signal values are vectors.
+    Caller(int order, const ReferenceKernel& kernel, int channels)
+        : name_(fmt::format("zonal_order{}_{}{}", order, kernel.name, channels == 3 ? "_rgb" : "")),
           call_(fmt::format("%called = OpFunctionCall %void %{}", name_)) {
-        if (kernel.rotation_size > 0) add("rotations", 0, kernel.rotation_size, true);
-        if (kernel.has_signal()) add("inputs", 1, kernel.input_size, true);
-        add("outputs", 2, kernel.output_size, false);
+        if (kernel.rotation_size > 0) add("rotations", 0, kernel.rotation_size, 1, true);
+        if (kernel.has_signal()) add("inputs", 1, kernel.input_size, channels, true);
+        add("outputs", 2, kernel.output_size, channels, false);
     }
 
     std::string text() const {
@@ -57,6 +58,7 @@ OpMemberDecorate %buffer 0 Offset 0
 %buffer_pointer = OpTypePointer StorageBuffer %buffer
 %element = OpTypePointer StorageBuffer %float
 %local = OpTypePointer Function %float
+%rgb = OpTypeVector %float 3
 {2}%action = OpTypeFunction %void
 %function = OpTypeFunction %void{3}
 %{0} = OpFunction %void None %function
@@ -81,48 +83,60 @@ OpFunctionEnd
     }
 
   private:
-    void add(const std::string& array, int binding, int size, bool is_input) {
+    void add(const std::string& array, int binding, int size, int channels, bool is_input) {
+        const std::string value = channels == 3 ? "rgb" : "float";
+        const std::string type = fmt::format("{}s_{}", value, size);
         decorations_ +=
             fmt::format("OpDecorate %{0} DescriptorSet 0\nOpDecorate %{0} Binding {1}\n", array, binding);
-        if (sizes_.insert(size).second)
-            types_ += fmt::format(
-                "%size_{0} = OpConstant %uint {0}\n%array_{0} = OpTypeArray %float %size_{0}\n"
-                "%pointer_{0} = OpTypePointer Function %array_{0}\n",
-                size);
-        types_ += fmt::format("%{} = OpVariable %buffer_pointer StorageBuffer\n", array);
-        pointers_ += fmt::format(" %pointer_{}", size);
-        parameters_ += fmt::format("%parameter_{} = OpFunctionParameter %pointer_{}\n", binding, size);
-        variables_ += fmt::format("%local_{} = OpVariable %pointer_{} Function\n", array, size);
+        if (declared_.insert(type).second)
+            types_ +=
+                fmt::format("{0}%{1} = OpTypeArray %{2} {3}\n%{1}_pointer = OpTypePointer Function %{1}\n",
+                            number_declared(size), type, value, number(size));
+        types_ += fmt::format("{}%{} = OpVariable %buffer_pointer StorageBuffer\n",
+                              number_declared(size * channels), array);
+        pointers_ += fmt::format(" %{}_pointer", type);
+        parameters_ += fmt::format("%parameter_{} = OpFunctionParameter %{}_pointer\n", binding, type);
+        variables_ += fmt::format("%local_{} = OpVariable %{}_pointer Function\n", array, type);
         call_ += fmt::format(" %local_{}", array);
         std::string& text = is_input ? loads_ : stores_;
-        text += fmt::format("%{0}_first = OpIMul %uint %vector %size_{1}\n", array, size);
-        for (int i = 0; i < size; ++i) {
-            if (numbers_.insert(i).second) types_ += fmt::format("%n{0} = OpConstant %uint {0}\n", i);
-            const std::string at = fmt::format("{}_{}", array, i);
+        text += fmt::format("%{}_first = OpIMul %uint %vector {}\n", array, number(size * channels));
+        for (int i = 0; i < size * channels; ++i) {
+            types_ += number_declared(i) + number_declared(i / channels) + number_declared(i % channels);
+            const std::string part = channels == 3 ? fmt::format(" {}", number(i % channels)) : "";
             text += fmt::format(
-                "%{0}_at = OpIAdd %uint %{1}_first %n{2}\n"
+                "%{0}_at = OpIAdd %uint %{1}_first {2}\n"
                 "%{0}_b = OpAccessChain %element %{1} %uint_0 %{0}_at\n"
-                "%{0}_l = OpAccessChain %local %local_{1} %n{2}\n"
-                "%{0} = OpLoad %float %{0}_{3}\nOpStore %{0}_{4} %{0}\n",
-                at, array, i, is_input ? "b" : "l", is_input ? "l" : "b");
+                "%{0}_l = OpAccessChain %local %local_{1} {3}{4}\n"
+                "%{0} = OpLoad %float %{0}_{5}\nOpStore %{0}_{6} %{0}\n",
+                fmt::format("{}_{}", array, i), array, number(i), number(i / channels), part,
+                is_input ? "b" : "l", is_input ? "l" : "b");
         }
+    }
+    static std::string number(int value) { return fmt::format("%n{}", value); }
+    /// The constant's declaration, once.
+    std::string number_declared(int value) {
+        if (!declared_.insert(number(value)).second) return {};
+        return fmt::format("{} = OpConstant %uint {}\n", number(value), value);
     }
 
     std::string name_, call_, decorations_, types_, pointers_, parameters_, variables_, loads_, stores_;
-    std::set<int> sizes_, numbers_;
+    std::set<std::string> declared_;  ///< types and numbers
 };
 
 class Linkage : public testing::TestWithParam<int> {
   protected:
-    void expect_linked_function_is_right(const Words& functions, const ReferenceKernel& kernel) const {
+    void expect_linked_functions_are_right(const Words& functions, const ReferenceKernel& kernel) const {
         const int order = GetParam();
-        const Words words = linked({assembled(Caller(order, kernel).text()), functions});
-        const ModuleRunner runner(words, kernel.output_size);
-        const Vectors vectors = test_vectors(order, kernel, 1);
-        EXPECT_EQ(
-            distance(order, kernel, vectors, runner.run(vectors), expected_results(kernel, vectors, 1), 1),
-            "")
-            << "order " << order << ", " << kernel.name;
+        for (const int channels : {1, 3}) {
+            if (channels == 3 && !kernel.has_signal()) continue;
+            const Words words = linked({assembled(Caller(order, kernel, channels).text()), functions});
+            const ModuleRunner runner(words, channels * kernel.output_size);
+            const Vectors vectors = test_vectors(order, kernel, channels);
+            EXPECT_EQ(distance(order, kernel, vectors, runner.run(vectors),
+                               expected_results(kernel, vectors, channels), channels),
+                      "")
+                << "order " << order << ", " << kernel.name << ", channels " << channels;
+        }
     }
 };
 
@@ -130,9 +144,9 @@ TEST_P(Linkage, functions_joined_by_spirv_link_are_within_bounds_of_cpp) {
     const int order = GetParam();
     const Words functions = assembled(read_text(spirv_folder() / (order_stem(order) + ".spvasm")));
     // Order 3 has every kernel there is, and the least to compile.
-    if (order > 3) return expect_linked_function_is_right(functions, reference_kernel(order, "rotate"));
+    if (order > 3) return expect_linked_functions_are_right(functions, reference_kernel(order, "rotate"));
     for (const ReferenceKernel& kernel : reference_kernels(order))
-        expect_linked_function_is_right(functions, kernel);
+        expect_linked_functions_are_right(functions, kernel);
 }
 
 INSTANTIATE_TEST_SUITE_P(orders, Linkage, testing::ValuesIn(reference_orders()),
@@ -143,7 +157,7 @@ TEST(LinkageErrors, a_function_that_is_not_there_is_refused) {
     ReferenceKernel unknown = reference_kernel(order, "rotate");
     unknown.name = "rotate_backwards";
     const Words functions = assembled(read_text(spirv_folder() / (order_stem(order) + ".spvasm")));
-    EXPECT_THROW(linked({assembled(Caller(order, unknown).text()), functions}), std::runtime_error);
+    EXPECT_THROW(linked({assembled(Caller(order, unknown, 1).text()), functions}), std::runtime_error);
 }
 
 }  // namespace

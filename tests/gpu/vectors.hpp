@@ -14,6 +14,9 @@ Vectors test_vectors(int order, const ReferenceKernel& kernel, int channels);
 /// What C++ makes of them, in the modules' layout.
 std::vector<float> expected_results(const ReferenceKernel& kernel, const Vectors& vectors, int channels);
 
+/// How the banner calls the bound that holds for a kernel that turns, in a form of so many channels.
+std::string bound_name(int order, const ReferenceKernel& kernel, int channels);
+
 /// Where two arrays of results differ, a NaN being equal to any NaN: an empty text where they do not.
 /// `size`: floats of one vector.
 std::string difference(const std::vector<float>& got, const std::vector<float>& wanted, int size);
@@ -21,8 +24,8 @@ std::string difference(const std::vector<float>& got, const std::vector<float>& 
 /// The same where a compiler may have arranged sums anew: empty where every vector is as near as two results
 /// may be that are both within the kernel's bound. For kernels that turn, twice the published bound and
 /// excess of the signal's norm (`prepare` and `blocks`: after the step that they are made for); for those
-/// that are linear in a signal or in R, 2 n 2^-24 |M| |f|, n terms summed in any order. Needs `got` of C++'s
-/// `vectors`.
+/// that are linear in a signal or in R, twice gamma(3 n - 1) |M| |f| for an output of n terms. Needs `got` of
+/// C++'s `vectors`.
 std::string distance(int order, const ReferenceKernel& kernel, const Vectors& vectors,
                      const std::vector<float>& got, const std::vector<float>& wanted, int channels);
 

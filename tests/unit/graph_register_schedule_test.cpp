@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -85,6 +86,30 @@ TEST(RegisterSchedule, dense_rows_are_used_as_they_are_made) {
     // rotation and the signal.
     const Kernel& kernel = order_5("rotate_accurate");
     EXPECT_LT(peak_registers(kernel, schedule_for_registers(kernel)), 81);
+}
+
+TEST(RegisterSchedule, steps_follow_one_another) {
+    const Kernel& kernel = order_5("blocks");
+    std::map<int, int> step_of;
+    for (const Store& store : kernel.stores) step_of[store.index] = store.step;
+    std::vector<int> steps;
+    for (const Statement& statement : schedule_for_registers(kernel))
+        if (statement.is_store) steps.push_back(step_of[statement.index]);
+    EXPECT_THAT(steps, testing::Contains(2));
+    EXPECT_TRUE(std::ranges::is_sorted(steps));
+}
+
+TEST(RegisterSchedule, columns_of_a_dense_matrix_do_not_wait_for_each_other) {
+    // Band 3 has 49 entries and R 9: as many are there when band 4 is made of the whole of it.
+    EXPECT_LT(peak_registers(order_5("blocks"), schedule_for_registers(order_5("blocks"))), 49 + 9);
+}
+
+TEST(RegisterSchedule, weights_of_lobes_that_share_sums_come_before_the_lobes) {
+    // Of the ring's lobes each shares what its weights are made of with one far from it. The 25 values of the
+    // signal, 27 weights and 21 sums are not there together.
+    const Kernel& kernel = order_5("rotate_zhf");
+    ASSERT_EQ(kernel.variant, "stable");
+    EXPECT_LT(peak_registers(kernel, schedule_for_registers(kernel)), 25 + 27 + 21);
 }
 
 }  // namespace

@@ -380,7 +380,8 @@ void check_rotations(int order, double budget) {
         EXPECT_LE(error, plan.bound + excess) << "order " << order << ", budget " << budget;
         largest = std::max(largest, error);
     }
-    EXPECT_GT(largest, plan.bound / 100) << "the bound says nothing";
+    // The bound adds what bands lose at worst; in a rotation some of it cancels.
+    EXPECT_GT(largest, plan.bound / (5 * order)) << "the bound says nothing";
 }
 
 TEST(SignalTables, whole_rotations_are_within_budget_and_bound) {

@@ -101,7 +101,7 @@ inline constexpr double kBlocksExcess = 0.55;
 /// The cheapest exact rotation of one vector.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 4 values, index l(l+1)+m.
 /// out : 4 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -136,7 +136,7 @@ void rotate(const T* R, const V* f, V* out) {
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 /// Turns the function, not the frame.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// scalars : 9 values, for `apply`.
 /// scalars must not overlap R.
 /// Cost: see the banner.
@@ -201,7 +201,7 @@ void apply(const T* scalars, const V* f, V* out) {
 /// The most accurate exact rotation, mirrors included.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 4 values, index l(l+1)+m.
 /// out : 4 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -236,7 +236,7 @@ void rotate_accurate(const T* R, const V* f, V* out) {
 
 /// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 /// Turns the function, not the frame.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// dense : 10 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.
 /// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.

@@ -158,7 +158,7 @@ inline constexpr double kRotateZhfExcess = 2.00;
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 25 values, index l(l+1)+m.
 /// out : 25 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -420,7 +420,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
 /// The cheapest exact rotation of one vector.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 25 values, index l(l+1)+m.
 /// out : 25 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -677,7 +677,7 @@ void rotate(const T* R, const V* f, V* out) {
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 /// Turns the function, not the frame.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// scalars : 52 values, for `apply`.
 /// scalars must not overlap R.
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
@@ -1055,7 +1055,7 @@ void apply(const T* scalars, const V* f, V* out) {
 /// The most accurate exact rotation, mirrors included.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 25 values, index l(l+1)+m.
 /// out : 25 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -2050,7 +2050,7 @@ void rotate_accurate(const T* R, const V* f, V* out) {
 
 /// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 /// Turns the function, not the frame.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// dense : 165 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.
 /// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
@@ -3330,7 +3330,7 @@ void resample(const V* samples, V* out) {
 }
 
 /// Turns the lobe directions of the table: R times each.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 27 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
 /// Cost: see the banner.
@@ -3419,7 +3419,7 @@ void lobes(const T* R, T* directions) {
 
 /// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 25 values, index l(l+1)+m.
 /// out : 25 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -4286,7 +4286,7 @@ void resample(const V* samples, V* out) {
 }
 
 /// Turns the lobe directions of the table: R times each.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 75 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
 /// Cost: see the banner.
@@ -4982,7 +4982,7 @@ void resample(const V* samples, V* out) {
 }
 
 /// Turns the lobe directions of the table: R times each.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 27 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
 /// Cost: see the banner.
@@ -5095,7 +5095,7 @@ void lobes(const T* R, T* directions) {
 
 /// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 25 values, index l(l+1)+m.
 /// out : 25 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.

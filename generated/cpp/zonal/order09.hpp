@@ -162,7 +162,7 @@ inline constexpr double kRotateZhfExcess = 4.00;
 /// The cheapest exact rotation of three vectors at once.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 81 values, index l(l+1)+m.
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -1180,7 +1180,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
 /// The cheapest exact rotation of one vector.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 81 values, index l(l+1)+m.
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -2175,7 +2175,7 @@ void rotate(const T* R, const V* f, V* out) {
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
 /// Turns the function, not the frame.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// scalars : 179 values, for `apply`.
 /// scalars must not overlap R.
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
@@ -3600,7 +3600,7 @@ void apply(const T* scalars, const V* f, V* out) {
 /// The most accurate exact rotation, mirrors included.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 81 values, index l(l+1)+m.
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -10375,7 +10375,7 @@ void rotate_accurate(const T* R, const V* f, V* out) {
 
 /// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
 /// Turns the function, not the frame.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// dense : 969 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.
 /// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
@@ -18758,7 +18758,7 @@ void resample(const V* samples, V* out) {
 }
 
 /// Turns the lobe directions of the table: R times each.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 51 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
 /// Cost: see the banner.
@@ -18919,7 +18919,7 @@ void lobes(const T* R, T* directions) {
 
 /// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 81 values, index l(l+1)+m.
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
@@ -23532,7 +23532,7 @@ void resample(const V* samples, V* out) {
 }
 
 /// Turns the lobe directions of the table: R times each.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 243 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
 /// Cost: see the banner.
@@ -26757,7 +26757,7 @@ void resample(const V* samples, V* out) {
 }
 
 /// Turns the lobe directions of the table: R times each.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 51 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
 /// Cost: see the banner.
@@ -26954,7 +26954,7 @@ void lobes(const T* R, T* directions) {
 
 /// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, determinant +1 or -1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 81 values, index l(l+1)+m.
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.

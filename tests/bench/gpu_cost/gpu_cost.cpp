@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/gpu_cost/tailored_shader.hpp"
 #include "gpu/pipeline_statistics.hpp"
 #include "gpu/shader_modules.hpp"
+#include "gpu/tailored_shader.hpp"
 
 namespace {
 
@@ -51,7 +51,6 @@ fs::path file_of(const Options& options, int order, const std::string& kernel) {
 }
 
 std::vector<std::uint32_t> read_kernel(const Options& options, int order, const std::string& kernel) {
-    using namespace zonal::gpu_cost;
     const fs::path file = file_of(options, order, kernel);
     if (!fs::exists(file))
         throw std::runtime_error(fmt::format(
@@ -62,7 +61,8 @@ std::vector<std::uint32_t> read_kernel(const Options& options, int order, const 
     if (kernel != kTailored) return zonal::gpu::read_shader(file);
     const std::string functions =
         zonal::gpu::read_text(fs::path(options.glsl) / fmt::format("order{:02}.glsl", order));
-    return zonal::gpu::compiled(tailored_compute_shader(order, functions, zonal::gpu::read_text(file)));
+    return zonal::gpu::compiled(
+        zonal::gpu::tailored_compute_shader(order, functions, zonal::gpu::read_text(file)));
 }
 
 /// What was asked for, or the usual kernels of the orders that the folder has.

@@ -17,6 +17,7 @@
 #include "gpu/emitted_shaders.hpp"
 #include "gpu/shader_modules.hpp"
 #include "gpu/tailored/cube_map_array.hpp"
+#include "gpu/tailored_shader.hpp"
 #include "support/oracle.hpp"
 #include "zonal/signal_tables.hpp"
 
@@ -61,64 +62,45 @@ std::vector<Matrix> rotations() {
     return result;
 }
 
-/// What an invocation does to its input, a few lines of GLSL.
+/// The text of orderNN.glsl or orderNN_tailored.glsl.
+std::string glsl_file(int order, const char* suffix) {
+    return zonal::gpu::read_text(zonal::gpu::glsl_folder() /
+                                 (zonal::gpu::order_stem(order) + suffix + ".glsl"));
+}
+
+std::string functions(int order) { return glsl_file(order, "") + glsl_file(order, "_tailored"); }
+
+/// A shader and the floats that it reads and writes for each invocation.
 struct Work {
     int input_size = 0, output_size = 0;
-    std::string
-        body;  ///< reads inputs[input_size * i + …], constants, bands; writes results[output_size * i + …]
+    std::string shader;
 };
 
 Work rotate_tailored(int order) {
     return {9, 3 * order * order,
-            fmt::format(R"(
-    float R[9];
-    for (int k = 0; k < 9; ++k) R[k] = inputs[9 * i + k];
-    vec3 low[4];
-    for (int k = 0; k < 4; ++k) low[k] = vec3(constants[3 * k], constants[3 * k + 1], constants[3 * k + 2]);
-    float levels[{layers}];
-    for (int k = 0; k < {layers}; ++k) levels[k] = constants[12 + k];
-    vec3 o[{size}];
-    zonal_order{order}_rotate_tailored(R, low, bands, levels, o);
-    for (int k = 0; k < {size}; ++k)
-        for (int c = 0; c < 3; ++c) results[3 * ({size} * i + k) + c] = o[k][c];
-)",
-                        fmt::arg("order", order), fmt::arg("size", order * order),
-                        fmt::arg("layers", order - zonal::kFirstTableBand))};
+            zonal::gpu::tailored_compute_shader(order, glsl_file(order, ""), glsl_file(order, "_tailored"))};
 }
 
 /// The first layer's value in a direction.
 Work look_up(int order) {
     return {3, 3,
-            fmt::format(R"(
-    vec3 w = zonal_order{}_face_direction(vec3(inputs[3 * i], inputs[3 * i + 1], inputs[3 * i + 2]));
-    vec3 value = textureLod(bands, vec4(w, 0.0), constants[12]).rgb;
-    for (int c = 0; c < 3; ++c) results[3 * i + c] = value[c];
-)",
-                        order)};
-}
-
-/// The functions of an order.
-std::string functions(int order) {
-    const auto file = [&](const char* suffix) {
-        return zonal::gpu::read_text(zonal::gpu::glsl_folder() /
-                                     (zonal::gpu::order_stem(order) + suffix + ".glsl"));
-    };
-    return file("") + file("_tailored");
-}
-
-std::string shader_text(int order, const Work& work) {
-    return "#version 450\n" + functions(order) + R"(
+            "#version 450\n" + functions(order) +
+                fmt::format(R"(
 layout(local_size_x_id = 0) in;
-layout(push_constant) uniform Push { uint count; };
-layout(set = 0, binding = 0, std430) readonly buffer Inputs { float inputs[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Constants { float constants[]; };
-layout(set = 0, binding = 2, std430) writeonly buffer Results { float results[]; };
+layout(push_constant) uniform Push {{ uint count; }};
+layout(set = 0, binding = 0, std430) readonly buffer Inputs {{ float inputs[]; }};
+layout(set = 0, binding = 2, std430) writeonly buffer Results {{ float results[]; }};
 layout(set = 0, binding = 3) uniform samplerCubeArray bands;
-void main() {
+layout(set = 0, binding = 4, std430) readonly buffer Levels {{ float levels[]; }};
+void main() {{
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-)" + work.body +
-           "}\n";
+    vec3 w = zonal_order{}_face_direction(vec3(inputs[3 * i], inputs[3 * i + 1], inputs[3 * i + 2]));
+    vec3 value = textureLod(bands, vec4(w, 0.0), levels[0]).rgb;
+    for (int c = 0; c < 3; ++c) results[3 * i + c] = value[c];
+}}
+)",
+                            order)};
 }
 
 double norm(const Signal& signal) {
@@ -159,17 +141,17 @@ class Tailored : public testing::TestWithParam<int> {
              static_cast<std::uint32_t>(plan.face_size), static_cast<std::uint32_t>(plan.level_count),
              static_cast<std::uint32_t>(plan.layer_count()), 4 * sizeof(T)},
             std::as_bytes(std::span(tables.texels)));
-        std::vector<float> constants;
-        for (int i = 0; i < 4; ++i)
-            for (const float value : {signal[i].r, signal[i].g, signal[i].b}) constants.push_back(value);
-        for (const int level : plan.levels) constants.push_back(static_cast<float>(level));
         const std::size_t count = inputs.size() / work.input_size;
-        const zonal::gpu::Buffer in(*device_, inputs), fixed(*device_, constants),
+        std::vector<float> low;
+        for (std::size_t k = 0; k < count; ++k)
+            for (int i = 0; i < 4; ++i) low.insert(low.end(), {signal[i].r, signal[i].g, signal[i].b});
+        const zonal::gpu::Buffer in(*device_, inputs), low_bands(*device_, low),
+            levels(*device_, std::vector<float>(plan.levels.begin(), plan.levels.end())),
             out(*device_, work.output_size * count);
-        const zonal::gpu::ComputePipeline pipeline(
-            *device_, zonal::gpu::compiled(shader_text(plan.order, work)), {.sampled_images = {3}});
+        const zonal::gpu::ComputePipeline pipeline(*device_, zonal::gpu::compiled(work.shader),
+                                                   {.storage_buffers = {0, 1, 2, 4}, .sampled_images = {3}});
         const std::vector<zonal::gpu::Binding> bindings{
-            {0, &in}, {1, &fixed}, {2, &out}, {3, bands.sampled()}};
+            {0, &in}, {1, &low_bands}, {2, &out}, {3, bands.sampled()}, {4, &levels}};
         pipeline.dispatch(bindings, static_cast<std::uint32_t>(count));
         return {out.values().begin(), out.values().end()};
     }
@@ -201,7 +183,8 @@ class Tailored : public testing::TestWithParam<int> {
             EXPECT_LE(error, tables.plan.bound + excess) << "order " << order << ", rotation\n" << turns[k];
             largest = std::max(largest, error);
         }
-        EXPECT_GT(largest, tables.plan.bound / 50) << "the bound says nothing";
+        // The bound adds what bands lose at worst; in a rotation some of it cancels.
+        EXPECT_GT(largest, tables.plan.bound / (5 * order)) << "the bound says nothing";
         // A row of the README's table.
         fmt::print("| {} | {:g} | {} | {} | {} | {:.2g} | {:.1e} | {:.1e} |\n", order, budget,
                    sizeof(T) == 4 ? "32F" : "16F", tables.plan.face_size, fmt::join(tables.plan.levels, " "),

@@ -1,8 +1,8 @@
-#include "bench/gpu_cost/tailored_shader.hpp"
+#include "gpu/tailored_shader.hpp"
 
 #include <fmt/format.h>
 
-namespace zonal::gpu_cost {
+namespace zonal::gpu {
 
 std::string tailored_compute_shader(int order, const std::string& kernels, const std::string& tailored) {
     constexpr const char* kEntry = R"(
@@ -41,4 +41,4 @@ void main() {{
                        fmt::arg("size", order * order), fmt::arg("floats", 3 * order * order));
 }
 
-}  // namespace zonal::gpu_cost
+}  // namespace zonal::gpu

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace zonal::gpu_cost {
+namespace zonal::gpu {
 
 /// A compute shader around zonal_orderN_rotate_tailored, with the memory of the direct modules: rotations at
 /// binding 0, the four coefficients of bands 0 and 1 at 1, output at 2, three channels tightly packed; the
@@ -10,4 +10,4 @@ namespace zonal::gpu_cost {
 /// orderNN_tailored.glsl.
 std::string tailored_compute_shader(int order, const std::string& kernels, const std::string& tailored);
 
-}  // namespace zonal::gpu_cost
+}  // namespace zonal::gpu
