@@ -3,7 +3,7 @@
 // table   : generator/tables/order05.json  sha256:d315533b9a797a7f
 //           generator/tables/band02.json  sha256:68906576c5aeae51
 //           generator/tables/band03.json  sha256:1469a1105632666f
-//           generator/tables/band04.json  sha256:5be8105de4e91444
+//           generator/tables/mirrored/band04.json  sha256:c5c037823ac6aa26
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : rotate_tailored 21 texture fetches and the scaling of 9 directions;
 //             lobes 15 mul 12 add 15 fma 0 other;

@@ -3,8 +3,8 @@
 // table   : generator/tables/order06.json  sha256:c2e8ea5090887877
 //           generator/tables/band02.json  sha256:68906576c5aeae51
 //           generator/tables/band03.json  sha256:1469a1105632666f
-//           generator/tables/band04.json  sha256:5be8105de4e91444
-//           generator/tables/band05.json  sha256:731245019b69ecd4
+//           generator/tables/mirrored/band04.json  sha256:c5c037823ac6aa26
+//           generator/tables/mirrored/band05.json  sha256:47bcb3beb1577a2c
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : rotate_tailored 32 texture fetches and the scaling of 11 directions;
 //             lobes 24 mul 15 add 12 fma 0 other;

@@ -281,7 +281,8 @@ void add_search_command(CLI::App& app) {
         ->check(CLI::Range(1, 4));
     command
         ->add_option("--local-moves", o.moves,
-                     "swaps tried on every child (default: 400 times the square of the lobes)")
+                     "swaps tried on every child (default: 400 times the square of the lobes; 100 times with "
+                     "--mirrors)")
         ->check(CLI::PositiveNumber);
     command->add_option("--crossover", o.crossover, "fraction of children with two parents")
         ->capture_default_str()
