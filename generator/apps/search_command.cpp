@@ -183,6 +183,21 @@ int emitted_instructions(const exact::BandFactorization& band) {
     return kernels::factorization_counts(band).instructions();
 }
 
+search::SearchResult find_lobes(const Options& options, const search::Problem& problem,
+                                const search::SearchSettings& settings,
+                                const search::SearchObserver& observer) {
+    if (options.mirrors == 0) return search::search_lobes(problem, settings, stop_requested, observer);
+    try {
+        return search::search_orbits(options.band, settings, {options.mirrors, options.moves},
+                                     emitted_instructions, stop_requested, observer);
+    } catch (const std::invalid_argument& error) {
+        throw UserError(
+            fmt::format("--resume {}: found {}, wanted whole orbits of {}; take the --mirrors it was "
+                        "found with, or drop --resume",
+                        options.resume, error.what(), options.mirrors));
+    }
+}
+
 void run(const Options& options) {
     check_use(options);
     check_is_writable("--out", options.out);
@@ -204,15 +219,13 @@ void run(const Options& options) {
     };
 
     const InterruptGuard guard;
-    const search::SearchResult result =
-        options.mirrors > 0 ? search::search_orbits(options.band, settings, {options.mirrors, options.moves},
-                                                    emitted_instructions, stop_requested, observer)
-                            : search::search_lobes(problem, settings, stop_requested, observer);
+    const search::SearchResult result = find_lobes(options, problem, settings, observer);
     fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
     if (!result.best.score.is_allowed(options.objective)) {
         const char* next_step =
             options.mirrors > 0
-                ? "take another number of --mirrors: not every one has orbits that make up a band"
+                ? "raise --generations or --seconds, change --seed, or take another number of "
+                  "--mirrors: not every one has orbits that make up a band"
             : options.is_plain ? "raise --generations, change --seed, or drop --plain"
                                : "raise --generations or change --seed";
         throw UserError(fmt::format("--{} {}: found no lobes of condition {:g} or less in {} generations; {}",
@@ -244,8 +257,8 @@ void add_search_command(CLI::App& app) {
         ->check(CLI::PositiveNumber);
     command->add_option("--seconds", o.seconds, "after which to stop")->check(CLI::PositiveNumber);
     command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
-    CLI::Option* plain = command->add_flag("--plain", o.is_plain,
-                                           "the paper's genetic algorithm, with no local steps, on the grid");
+    command->add_flag("--plain", o.is_plain,
+                      "the paper's genetic algorithm, with no local steps, on the grid");
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
     command
         ->add_option("--zero-bands", o.zero_bands,
@@ -256,10 +269,9 @@ void add_search_command(CLI::App& app) {
         ->add_option("--rings", o.rings,
                      "candidates off the equator lie at phi = k pi / d for these d (default: by the bands)")
         ->check(CLI::Range(1, 60));
-    CLI::Option* archive =
-        command->add_option("--archive", o.archive,
-                            "JSON file for the sets that no other beats in nonzeros, multiplications and "
-                            "condition at once");
+    command->add_option("--archive", o.archive,
+                        "JSON file for the sets that no other beats in nonzeros, multiplications and "
+                        "condition at once");
     CLI::Option* mirrors =
         command
             ->add_option(
@@ -267,7 +279,7 @@ void add_search_command(CLI::App& app) {
                 "seek lobes of a band that are closed under so many mirrors through the z axis, by the "
                 "instructions of their emitted product")
             ->check(CLI::Range(1, search::kMostMirrors));
-    mirrors->needs(band)->excludes(plain)->excludes(archive);
+    mirrors->needs(band);
     command->add_option("--islands", o.islands, "populations that breed apart")
         ->capture_default_str()
         ->check(CLI::Range(1, 1024));
@@ -301,6 +313,9 @@ void add_search_command(CLI::App& app) {
         ->add_option("--condition-cap", o.objective.condition_cap, "largest condition of a band, at most 50")
         ->capture_default_str()
         ->check(CLI::Range(1.0, kConditionCap));
+    for (const char* name : {"--plain", "--on-grid", "--archive", "--population", "--elite", "--crossover",
+                             "--mutation", "--multiplication-weight"})
+        mirrors->excludes(command->get_option(name));
     command->callback([options] { run(*options); });
 }
 

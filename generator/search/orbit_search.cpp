@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "search/course.hpp"
 
@@ -35,8 +38,7 @@ class Estimate {
                 if (l % 2 != 0) rows.col(i) *= orbit.signs[i];
             }
             rows_.push_back(rows);
-            transforms_.try_emplace({orbit.steps, orbit.has_pairs},
-                                    transforms_for(orbit.steps, orbit.has_pairs));
+            transforms_.push_back(transforms_of(orbit, l % 2 != 0));
         }
     }
 
@@ -56,35 +58,32 @@ class Estimate {
         if (!(squared_norm < kSingularSquaredNorm)) return std::numeric_limits<double>::infinity();
         int cost = 0;
         first = 0;
-        for (const int number : set) {
-            const Orbit& orbit = (*pool_)[number];
-            cost += cost_of_orbit(orbit, a_hat.middleCols(first, orbit.size()));
-            first += orbit.size();
+        for (const int orbit : set) {
+            const int size = (*pool_)[orbit].size();
+            cost += cost_of_orbit(orbit, a_hat.middleCols(first, size));
+            first += size;
         }
         return cost + norm_weight * std::log2(std::sqrt(squared_norm) * columns_.norm() / size_);
     }
 
   private:
-    static std::vector<OrbitTransform> transforms_for(int steps, bool has_pairs) {
-        std::vector<OrbitTransform> all;
-        all.push_back(fourier_sums(steps, has_pairs));
-        if (has_pairs && steps > 1) {  // pairs alone
-            OrbitTransform pairs;
-            const Matrix<double> one = Matrix<double>::Identity(steps, steps);
-            pairs.rows.resize(2 * steps, 2 * steps);
+    static std::vector<OrbitTransform> transforms_of(const Orbit& orbit, bool is_odd_band) {
+        std::vector<OrbitTransform> all{fourier_sums(orbit, is_odd_band)};
+        if (orbit.has_pairs && orbit.steps > 1) {  // pairs alone
+            const Matrix<double> one = Matrix<double>::Identity(orbit.steps, orbit.steps);
+            OrbitTransform pairs{Matrix<double>(orbit.size(), orbit.size()), orbit.size()};
             pairs.rows << one, one, one, -one;
-            pairs.additions = 2 * steps;
             all.push_back(pairs);
         }
         return all;
     }
 
-    int cost_of_orbit(const Orbit& orbit, const Matrix<double>& a_hat) const {
+    int cost_of_orbit(int orbit, const Matrix<double>& a_hat) const {
         const auto nonzeros = [](const auto& matrix) {
             return static_cast<int>((matrix.array().abs() > kZeroInDouble).count());
         };
         int best = nonzeros(a_hat);
-        for (const OrbitTransform& transform : transforms_.at({orbit.steps, orbit.has_pairs}))
+        for (const OrbitTransform& transform : transforms_[orbit])
             best = std::min(best, transform.additions + nonzeros(a_hat * transform.rows.transpose()));
         return best;
     }
@@ -92,8 +91,8 @@ class Estimate {
     int size_;
     const OrbitPool* pool_;
     std::vector<Matrix<double>> rows_;
-    std::map<std::pair<int, bool>, std::vector<OrbitTransform>> transforms_;
-    Matrix<double> columns_;  ///< Y transposed
+    std::vector<std::vector<OrbitTransform>> transforms_;  ///< of each orbit
+    Matrix<double> columns_;                               ///< Y transposed
 };
 
 double cost_of(const Solution& solution, int instructions, const Objective& objective) {
@@ -196,6 +195,7 @@ class Island {
         const double cooling = std::pow(kEndTemperature / start_temperature, 1.0 / moves_);
         double energy = estimate_(set, norm_weight), temperature = start_temperature;
         lowest_.clear();
+        remember(set, energy);
         for (int move = 0; move < moves_; ++move, temperature *= cooling) {
             if (move % 256 == 0 && is_stopped()) return;
             OrbitSet next = set;
@@ -225,7 +225,8 @@ class Island {
         LobeSet sorted = lobes;
         std::ranges::sort(sorted);
         if (!measured_.insert(sorted).second) return;
-        Measured measured{confirm(problem_, with_angles(*grid_, lobes)), 0, 0, set};
+        // As a table has them: what is emitted depends on the order.
+        Measured measured{confirm(problem_, in_reading_order(with_angles(*grid_, lobes))), 0, 0, set};
         if (!measured.solution.score.is_allowed(settings_->objective)) return;
         measured.instructions = (*emitted_cost_)(
             exact::factorize_band(problem_.highest_band(), directions_of(measured.solution.lobes)));
@@ -265,9 +266,11 @@ SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSet
     std::vector<Island> islands;
     for (int i = 0; i < settings.islands; ++i)
         islands.emplace_back(l, grid, orbit_pool, settings, moves, emitted_cost, i);
-    if (start)
-        if (const auto whole = orbit_pool.orbits_of(*start))
-            for (Island& island : islands) island.adopt(*whole);
+    if (start) {
+        const std::optional<OrbitSet> whole = orbit_pool.orbits_of(*start);
+        if (!whole) throw std::invalid_argument("lobes that are not closed under these mirrors");
+        for (Island& island : islands) island.adopt(*whole);
+    }
 
     SearchResult result;
     double best_cost = std::numeric_limits<double>::infinity();
@@ -287,7 +290,8 @@ SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSet
         course.finish_generation(result.best, has_better, evaluations);
         if (has_better) observer.on_better(result.best, course.progress);
         observer.on_generation(course.progress);
-        if (evaluations == 0) break;  // no island found regular orbits to begin from
+        if (evaluations == 0 && result.best.lobes.empty())
+            break;  // there are no regular orbits to begin from
     } while (!course.is_over());
     result.progress = course.progress;
     return result;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 
+#include "exact/factorization.hpp"
 #include "search/orbits.hpp"
 #include "search/search.hpp"
 
@@ -22,7 +24,8 @@ struct OrbitSettings {
 /// of which give way to others at a time, by an estimate of the cost: the entries that are left in Fourier
 /// sums over each orbit, with the additions of these. The sets of least estimate are then factorized at 50
 /// digits and their products built and counted. Ends after a generation where no whole orbits make up the
-/// band. The same settings and number of generations give the same result.
+/// band. The same settings and number of generations give the same result. Throws std::invalid_argument when
+/// `settings.start` is no set of whole orbits.
 SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSettings& orbits,
                            const EmittedCost& emitted_cost, const std::atomic<bool>& stop,
                            const SearchObserver& observer = {});

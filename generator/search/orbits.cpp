@@ -28,7 +28,6 @@ bool append(Orbit& orbit, const CandidateGrid& grid, int theta, double phi) {
 /// The orbit of a lobe, of which one that lies on the first mirror comes first: then Fourier sums split even
 /// functions from odd ones. None where the grid lacks a lobe of it.
 std::optional<Orbit> orbit_of(const CandidateGrid& grid, Lobe lobe, int mirrors) {
-    if (mirrors == 0) return Orbit{{lobe}, {1}, 1, false};
     Orbit orbit;
     double phi = phi_of(grid, lobe);
     for (int step = 0; step < mirrors; ++step) {
@@ -41,6 +40,7 @@ std::optional<Orbit> orbit_of(const CandidateGrid& grid, Lobe lobe, int mirrors)
         if (start == phi) orbit.steps = orbit.size();
     }
     orbit.has_pairs = orbit.size() > orbit.steps;
+    orbit.has_half_turn = lobe.theta == grid.equator() && mirrors % 2 == 0;
     return orbit;
 }
 
@@ -70,21 +70,23 @@ std::optional<std::vector<int>> OrbitPool::orbits_of(const LobeSet& lobes) const
     return numbers;
 }
 
-OrbitTransform fourier_sums(int steps, bool has_pairs) {
+OrbitTransform fourier_sums(const Orbit& orbit, bool is_odd_band) {
+    const int steps = orbit.steps;
     exact::Matrix<double> around(steps, steps);
     int row = 0;
-    for (int r = 0; 2 * r <= steps; ++r) {
-        const bool has_sine = r > 0 && 2 * r < steps;
+    // Periods in all steps: whole numbers, or halves of odd ones where the values change their sign.
+    for (double periods = orbit.has_half_turn && is_odd_band ? 0.5 : 0; row < steps; ++periods) {
+        const bool has_sine = periods > 0 && 2 * periods < steps;
         for (int step = 0; step < steps; ++step) {
-            around(row, step) = std::cos(2 * M_PI * r * step / steps);
-            if (has_sine) around(row + 1, step) = std::sin(2 * M_PI * r * step / steps);
+            around(row, step) = std::cos(2 * M_PI * periods * step / steps);
+            if (has_sine) around(row + 1, step) = std::sin(2 * M_PI * periods * step / steps);
         }
         row += 1 + has_sine;
     }
-    // Instructions of a real Fourier transform, about.
+    // Instructions of a real Fourier transform.
     constexpr std::array<int, kMostMirrors + 1> kAdditions{0, 0, 2, 4, 6, 16, 14, 36, 20, 40, 42, 100, 44};
     const int additions = kAdditions.at(steps);
-    if (!has_pairs) return {around, additions};
+    if (!orbit.has_pairs) return {around, additions};
     exact::Matrix<double> both(2 * steps, 2 * steps);
     both << around, around, around, -around;
     return {both, 2 * additions + 2 * steps};

@@ -18,6 +18,9 @@ struct Orbit {
     std::vector<int> signs;  ///< -1 where what the group gives is the lobe's antipode
     int steps = 1;           ///< around the axis
     bool has_pairs = false;  ///< every lobe has an image that is another lobe
+    /// On the equator, of an even number of mirrors: half a turn takes a lobe to its antipode, so that the
+    /// steps end there.
+    bool has_half_turn = false;
 
     int size() const { return static_cast<int>(lobes.size()); }
 };
@@ -28,7 +31,8 @@ struct Orbit {
 /// over the orbits do the same to the product by Â_l, and mirrors make these sums butterflies.
 class OrbitPool {
   public:
-    /// Orbits of which a lobe has angles that the grid lacks are left out.
+    /// Orbits of which a lobe has angles that the grid lacks are left out. Precondition: 1 <= mirrors <=
+    /// kMostMirrors.
     OrbitPool(const CandidateGrid& grid, const Pool& pool, int mirrors);
 
     int size() const { return static_cast<int>(orbits_.size()); }
@@ -41,12 +45,15 @@ class OrbitPool {
     std::vector<Orbit> orbits_;
 };
 
-/// Fourier sums over an orbit: the rows of an orthogonal-up-to-scale matrix, size x size, and what it costs
-/// to apply it.
+/// Fourier sums over an orbit: the rows of a matrix that is orthogonal up to the length of each row, size x
+/// size, and what it costs to apply it, about.
 struct OrbitTransform {
     exact::Matrix<double> rows;
     int additions = 0;
 };
-OrbitTransform fourier_sums(int steps, bool has_pairs);
+
+/// Of the values of a band's harmonics, each times the sign of its lobe. Those of an odd band change their
+/// sign over the steps of an orbit that has a half turn.
+OrbitTransform fourier_sums(const Orbit& orbit, bool is_odd_band);
 
 }  // namespace zonal::search

@@ -11,17 +11,16 @@ gen=${3:-build/release/bin/zonal-gen}
 bands=${5:-3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18}
 numbers=${6:-1 2 3 4 5 6}
 mkdir -p "$best"
+trap 'exit 130' INT
 
 search() { # BAND MIRRORS OPTIONS...
   local band=$1 mirrors=$2 table record found instructions condition
   shift 2
   table=$(printf '%s/band%02d.json' "$best" "$band")
   record=$best/$band.best
-  [ ! -e "$best/$band.$mirrors.none" ] || return 0
   found=$("$gen" search --band "$band" --mirrors "$mirrors" --seconds "$seconds" "$@" --out "$best/new.json" \
     2>&1 >"$best/path") || {
-    touch "$best/$band.$mirrors.none" # too few orbits of the sizes it takes
-    printf 'band %d, %d mirrors: nothing [%s]\n' "$band" "$mirrors" "$*"
+    printf 'band %d, %d mirrors: %s [%s]\n' "$band" "$mirrors" "$(tail -n 1 <<<"$found")" "$*"
     return 0
   }
   instructions=$(sed -n 's/.*: \([0-9]*\) instructions.*/\1/p' <<<"$found")

@@ -7,6 +7,7 @@
 
 #include "kernels/lobes.hpp"
 #include "lobe_table.hpp"
+#include "order_kernels.hpp"
 #include "search/orbit_search.hpp"
 
 namespace zonal::search {
@@ -74,26 +75,30 @@ int representation(int m, int mirrors) {
 }
 
 TEST_P(OrbitPoolOfMirrors, fourier_sums_over_an_orbit_see_one_representation_each) {
-    const int l = 6, mirrors = GetParam();
-    const Orbits all(l, mirrors);
-    for (int number = 0; number < all.orbits.size(); ++number) {
-        const Orbit& orbit = all.orbits[number];
-        exact::Matrix<double> lobes(2 * l + 1, orbit.size());
-        for (int i = 0; i < orbit.size(); ++i) all.grid.evaluate(l, orbit.lobes[i], lobes.col(i).data());
-        const exact::Matrix<double> sums =
-            lobes * fourier_sums(orbit.steps, orbit.has_pairs).rows.transpose();
-        for (int sum = 0; sum < orbit.size(); ++sum) {
-            std::set<int> seen;
-            for (int m = -l; m <= l; ++m)
-                if (std::abs(sums(l + m, sum)) > 1e-9) seen.insert(representation(m, mirrors));
-            // On mirrors that hold no first lobe of an orbit, sums see even and odd functions together.
-            EXPECT_LE(seen.size(), orbit.has_pairs || mirrors <= 2 ? 1u : 2u)
-                << "orbit " << number << " sum " << sum;
+    const int mirrors = GetParam();
+    for (const int l : {6, 7}) {
+        const Orbits all(l, mirrors);
+        for (int number = 0; number < all.orbits.size(); ++number) {
+            const Orbit& orbit = all.orbits[number];
+            exact::Matrix<double> lobes(2 * l + 1, orbit.size());
+            for (int i = 0; i < orbit.size(); ++i) {
+                all.grid.evaluate(l, orbit.lobes[i], lobes.col(i).data());
+                if (l % 2 != 0) lobes.col(i) *= orbit.signs[i];
+            }
+            const exact::Matrix<double> sums = lobes * fourier_sums(orbit, l % 2 != 0).rows.transpose();
+            for (int sum = 0; sum < orbit.size(); ++sum) {
+                std::set<int> seen;
+                for (int m = -l; m <= l; ++m)
+                    if (std::abs(sums(l + m, sum)) > 1e-9) seen.insert(representation(m, mirrors));
+                // On mirrors that hold no first lobe of an orbit, sums see even and odd functions together.
+                EXPECT_LE(seen.size(), orbit.has_pairs || mirrors <= 2 ? 1u : 2u)
+                    << "band " << l << " orbit " << number << " sum " << sum;
+            }
         }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(mirrors, OrbitPoolOfMirrors, testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(mirrors, OrbitPoolOfMirrors, testing::Range(1, kMostMirrors + 1));
 
 TEST(OrbitPool, knows_the_orbits_of_a_whole_set_only) {
     const Orbits all(4, 2);
@@ -110,11 +115,14 @@ TEST(OrbitPool, knows_the_orbits_of_a_whole_set_only) {
 TEST(FourierSums, are_orthogonal) {
     for (int steps = 1; steps <= kMostMirrors; ++steps) {
         for (const bool has_pairs : {false, true}) {
-            const OrbitTransform transform = fourier_sums(steps, has_pairs);
-            exact::Matrix<double> products = transform.rows * transform.rows.transpose();
-            EXPECT_THAT(products.diagonal().reshaped(), Each(Ge(0.99)));
-            products.diagonal().setZero();
-            EXPECT_LT(products.norm(), 1e-12) << steps << " steps";
+            for (const bool is_odd_band : {false, true}) {
+                Orbit orbit{LobeSet(has_pairs ? 2 * steps : steps), {}, steps, has_pairs, true};
+                exact::Matrix<double> products = fourier_sums(orbit, is_odd_band).rows;
+                products *= products.transpose().eval();
+                EXPECT_THAT(products.diagonal().reshaped(), Each(Ge(0.99)));
+                products.diagonal().setZero();
+                EXPECT_LT(products.norm(), 1e-12) << steps << " steps";
+            }
         }
     }
 }
@@ -160,7 +168,17 @@ TEST(OrbitSearch, resumed_is_never_worse) {
     settings.seed = 2;
     settings.start = first.best.lobes;
     const SearchResult second = search_orbits(4, settings, {2, 1}, instructions, kNoStop);
-    EXPECT_LE(second.progress.instructions, first.progress.instructions);
+    const auto cost = [&](const SearchResult& result) {
+        return result.progress.instructions +
+               settings.objective.condition_weight * std::log2(result.best.score.condition);
+    };
+    EXPECT_LE(cost(second), cost(first) + 1e-9);
+}
+
+TEST(OrbitSearch, refuses_to_resume_from_lobes_of_other_mirrors) {
+    SearchSettings settings = settings_for(1);
+    settings.start = search_orbits(4, settings_for(1), {1, 100}, instructions, kNoStop).best.lobes;
+    EXPECT_THROW(search_orbits(4, settings, {3, 100}, instructions, kNoStop), std::invalid_argument);
 }
 
 /// Mirrors of which no orbits make up 2l+1 independent lobes.
@@ -183,6 +201,18 @@ TEST_P(MirroredTableOfABand, is_verified_and_costs_less_than_the_sparsest_lobes)
     const int l = GetParam();
     EXPECT_LT(instructions(exact::factorize_band(l, mirrored.directions)),
               instructions(exact::factorize_band(l, sparsest.directions)));
+}
+
+TEST(PerBandLobes, are_those_of_the_cheaper_table) {
+    const OrderKernels order = build_order_kernels(6, {});
+    ASSERT_TRUE(order.band_lobes);
+    for (const NamedTable& source : order.band_lobes->sources) {
+        const int l = source.table.use.value;
+        // Below band 4 there is one table.
+        const bool is_mirrored = source.name.find("mirrored/") != std::string::npos;
+        EXPECT_EQ(is_mirrored, l >= 4) << source.name;
+        EXPECT_EQ(order.band_lobes->set.bands[l].zeros, source.table.zeros[0]) << source.name;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(bands, MirroredTableOfABand, testing::Range(4, 19));
