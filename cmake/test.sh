@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds with g++ (release) and runs every test.
+# Installs what is missing, builds with g++ (release) and runs every test but the heaviest shaders (minutes; .ci/run
+# has them): ctest --test-dir build/release -L heavy
 #   bash cmake/test.sh [options for ctest]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bash cmake/install_packages.sh
 cmake --preset release
 cmake --build --preset release
-ctest --test-dir build/release --output-on-failure --parallel "$(nproc)" "$@"
+ctest --test-dir build/release --output-on-failure --parallel "$(nproc)" --label-exclude heavy "$@"
