@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <optional>
@@ -26,6 +27,10 @@ struct Lobe {
 };
 
 using LobeSet = std::vector<Lobe>;
+
+inline bool contains(const LobeSet& lobes, Lobe lobe) {
+    return std::ranges::find(lobes, lobe) != lobes.end();
+}
 
 /// The discrete directions among which lobes are sought: theta at the zeros of the Legendre functions P_k^m
 /// and phi at the zeros of sin(m phi) and cos(m phi), for bands k = 1 … max_band and 1 <= m <= max_band. A

@@ -15,8 +15,6 @@ namespace {
 /// The range of lambda that is worth trying: low finds zeros, high finds good conditions.
 constexpr double kSmallestNormWeight = 0.2, kLargestNormWeight = 4;
 
-bool contains(const LobeSet& lobes, Lobe lobe) { return std::ranges::find(lobes, lobe) != lobes.end(); }
-
 }  // namespace
 
 Genetic Genetic::of_paper() {

@@ -8,8 +8,6 @@
 namespace zonal::search {
 namespace {
 
-bool contains(const LobeSet& lobes, Lobe lobe) { return std::ranges::find(lobes, lobe) != lobes.end(); }
-
 double phi_of(const CandidateGrid& grid, Lobe lobe) {
     return static_cast<double>(grid.phis()[lobe.phi].value);
 }

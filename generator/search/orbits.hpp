@@ -26,7 +26,7 @@ struct Orbit {
 };
 
 /// The orbits of the candidates of a pool under the group that `mirrors` planes through the z axis generate,
-/// pi / mirrors apart, the first at phi = 0. (C_1v, C_2v, … in Schoenflies' notation; 0: no symmetry.) In a
+/// pi / mirrors apart, the first at phi = 0. (C_1v, C_2v, … in Schoenflies' notation.) In a
 /// set made of whole orbits Y_l falls apart into a block for every irreducible representation: Fourier sums
 /// over the orbits do the same to the product by Â_l, and mirrors make these sums butterflies.
 class OrbitPool {
