@@ -133,6 +133,11 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
         unit.kernels, [](const graph::Kernel& kernel) { return kernel.variant == "per_band"; });
     unit.constants.push_back(
         {"kHasPerBandLobes", has_per_band ? 1 : 0, "1 where lobes of each band's own are here, else 0"});
+    const bool has_polynomial = std::ranges::any_of(
+        unit.kernels, [](const graph::Kernel& kernel) { return kernel.name == "rotate_polynomial"; });
+    unit.constants.push_back(
+        {"kHasPolynomial", has_polynomial ? 1 : 0,
+         "1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0"});
     const graph::Kernel& prepare = graph::kernel_named(order.kernels, "prepare");
     unit.constants.push_back({"kScalars", prepare.output.size, "Values that `prepare` makes"});
     const bool takes_mirrors =

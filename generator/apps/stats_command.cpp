@@ -115,11 +115,11 @@ void print_table(const Json& stats) {
     fmt::print("{:<6}{}\n", "band", "method of rotate");
     for (const Json& band : stats["methods"])
         fmt::print("{:<6}{}\n", band["band"].get<int>(), band["rotate"].get<std::string>());
-    fmt::print("\n{:<16}{:>6}{:>6}{:>6}{:>7}   {}\n", "kernel", "mul", "add", "fma", "other",
+    fmt::print("\n{:<20}{:>6}{:>6}{:>6}{:>7}   {}\n", "kernel", "mul", "add", "fma", "other",
                "of these once per rotation (mul add fma other)");
     for (const auto& [name, kernel] : stats["kernels"].items()) {
         const Json& once = kernel["per_rotation"];
-        fmt::print("{:<16}{:>6}{:>6}{:>6}{:>7}   {} {} {} {}\n", name, kernel["mul"].get<int>(),
+        fmt::print("{:<20}{:>6}{:>6}{:>6}{:>7}   {} {} {} {}\n", name, kernel["mul"].get<int>(),
                    kernel["add"].get<int>(), kernel["fma"].get<int>(), kernel["other"].get<int>(),
                    once["mul"].get<int>(), once["add"].get<int>(), once["fma"].get<int>(),
                    once["other"].get<int>());

@@ -71,6 +71,12 @@ Kernel build_blocks(int order) {
     return graph::optimize(kernel);
 }
 
+/// Nothing but products and sums, mirrors included.
+bool contracts_every_band(const Plan& plan) {
+    return std::ranges::all_of(plan,
+                               [](const BandPlan& band) { return band.method == BandMethod::contraction; });
+}
+
 bool is_same_work(const Kernel& a, const Kernel& b) {
     const auto weight_of = [](const Kernel& kernel, int vectors) { return weight(kernel, {vectors, false}); };
     return weight_of(a, 0) == weight_of(b, 0) && weight_of(a, 1) == weight_of(b, 1);
@@ -112,6 +118,14 @@ std::vector<Kernel> build_rotations(int order) {
         kernels.push_back(channels);
     }
     kernels.push_back(one);
+    if (const Plan plan = cheapest_plan(order, {1, true}); contracts_every_band(plan)) {
+        const Kernel polynomial =
+            planned("rotate_polynomial",
+                    "The cheapest exact rotation by products and sums alone, mirrors included:\n"
+                    "no division, no root, no pole.",
+                    order, plan);
+        if (!is_same_work(one, polynomial)) kernels.push_back(polynomial);
+    }
     kernels.push_back(halves.prepare);
     kernels.push_back(halves.apply);
     kernels.push_back(

@@ -48,8 +48,8 @@ std::vector<Worst> worst_errors(const oracle::Rotation& exact, const std::vector
                                 const std::vector<Contestant<T>>& kernels);
 
 /// The largest error b_N that a kernel may have by the project's own contract, for N = 2 … 20 (linear
-/// interpolation between the orders that the contract names). `kernel`: rotate, rotate_channels, apply,
-/// rotate_accurate, blocks or rotate_zhf.
+/// interpolation between the orders that the contract names). `kernel`: rotate, rotate_channels,
+/// rotate_polynomial, apply, rotate_accurate, blocks or rotate_zhf.
 double contract(const std::string& kernel, int order, bool is_float);
 
 }  // namespace zonal::accuracy

@@ -73,6 +73,18 @@ TEST(Planner, a_workload_with_mirrors_gets_a_kernel_for_mirrors) {
     EXPECT_FALSE(build_plan(5, cheapest_plan(5, {1, true})).needs_proper_rotation);
 }
 
+TEST(Rotations, contractions_alone_are_a_kernel_where_rotate_divides_and_every_band_has_one) {
+    for (const int order : {2, 3, 4, 5, 6}) {
+        const std::vector<graph::Kernel> kernels = build_rotations(order);
+        const auto polynomial = std::ranges::find(kernels, "rotate_polynomial", &graph::Kernel::name);
+        ASSERT_EQ(polynomial != kernels.end(), order == 4) << order;
+        if (polynomial == kernels.end()) continue;
+        EXPECT_FALSE(polynomial->needs_proper_rotation);
+        EXPECT_EQ(graph::count_operations(*polynomial).total().other, 0);
+        EXPECT_GT(graph::count_operations(graph::kernel_named(kernels, "rotate")).total().other, 0);
+    }
+}
+
 TEST(Rotations, prepare_and_apply_cost_together_what_their_kernel_does) {
     const std::vector<graph::Kernel> kernels = build_rotations(5);
     const auto find = [&](const std::string& name) {

@@ -68,6 +68,9 @@ inline constexpr int kHasLobes = 0;
 /// 1 where lobes of each band's own are here, else 0.
 inline constexpr int kHasPerBandLobes = 0;
 
+/// 1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0.
+inline constexpr int kHasPolynomial = 0;
+
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 9;
 

@@ -8,6 +8,8 @@
 //             per extra vector 31 mul 0 add 50 fma 0 other
 //           rotate 40 mul 5 add 70 fma 3 other;
 //             per extra vector 34 mul 0 add 54 fma 0 other
+//           rotate_polynomial 48 mul 6 add 89 fma 0 other;
+//             per extra vector 48 mul 6 add 89 fma 0 other
 //           prepare 17 mul 4 add 16 fma 3 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           apply 31 mul 0 add 50 fma 0 other;
@@ -48,6 +50,8 @@
 //             for det R = +1; excess 2.56
 //           rotate relative error 9.3e-07 (float), 2.4e-15 (double),
 //             for det R = +1; excess 2.56
+//           rotate_polynomial relative error 3.0e-07 (float), 6.5e-16 (double),
+//             for det R = +1 or -1; excess 2.23
 //           apply relative error 9.3e-07 (float), 2.4e-15 (double),
 //             for det R = +1; excess 2.56
 //           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double),
@@ -112,6 +116,9 @@ inline constexpr int kHasLobes = 1;
 /// 1 where lobes of each band's own are here, else 0.
 inline constexpr int kHasPerBandLobes = 1;
 
+/// 1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0.
+inline constexpr int kHasPolynomial = 1;
+
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 33;
 
@@ -129,6 +136,12 @@ inline constexpr double kRotateChannelsExcess = 2.56;
 inline constexpr double kRotateBoundFloat = 9.3e-07;
 inline constexpr double kRotateBoundDouble = 2.4e-15;
 inline constexpr double kRotateExcess = 2.56;
+
+/// Largest relative error of rotate_polynomial for det R = +1 or -1 where R is orthonormal,
+/// and what is added for each unit of |R R^T - I|_F.
+inline constexpr double kRotatePolynomialBoundFloat = 3.0e-07;
+inline constexpr double kRotatePolynomialBoundDouble = 6.5e-16;
+inline constexpr double kRotatePolynomialExcess = 2.23;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
@@ -483,6 +496,189 @@ void rotate(const T* R, const V* f, V* out) {
         out[14] = b3_a_5;
         out[15] = b3_a_8;
     }
+}
+
+/// The cheapest exact rotation by products and sums alone, mirrors included:
+/// no division, no root, no pole.
+/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Bands are independent: a NaN stays in its band.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
+/// f : 16 values, index l(l+1)+m.
+/// out : 16 values, index l(l+1)+m.
+/// out may be f; they must not overlap in part.
+/// Error: at most (kRotatePolynomialBound... + kRotatePolynomialExcess |R R^T - I|_F) |f|.
+/// Cost: see the banner.
+/// Source: low bands as tensors, contracted with the rows of R.
+template <class T, class V = T>
+void rotate_polynomial(const T* R, const V* f, V* out) {
+    const T r00 = R[0];
+    const T r01 = R[1];
+    const T r02 = R[2];
+    const T r10 = R[3];
+    const T r11 = R[4];
+    const T r12 = R[5];
+    const T r20 = R[6];
+    const T r21 = R[7];
+    const T r22 = R[8];
+    out[0] = f[0];
+    const V b1_1 = r11 * f[1];
+    const V b1_2 = fma(r10, f[3], b1_1);
+    const V b1_3 = fma(r12, f[2], b1_2);
+    const V b1_4 = r21 * f[1];
+    const V b1_5 = fma(r20, f[3], b1_4);
+    const V b1_6 = fma(r22, f[2], b1_5);
+    const V b1_7 = r01 * f[1];
+    const V b1_8 = fma(r00, f[3], b1_7);
+    const V b1_9 = fma(r02, f[2], b1_8);
+    out[1] = b1_3;
+    out[2] = b1_6;
+    out[3] = b1_9;
+    const V b2_1 = f[8] + f[8];
+    const V b2_2 = fma(T(1.7320508075688772), f[6], f[8]);
+    const V b2_3 = r21 * f[4];
+    const V b2_4 = fma(r20, b2_1, b2_3);
+    const V b2_5 = fma(r22, f[7], b2_4);
+    const V b2_6 = r22 * f[5];
+    const V b2_7 = fma(r20, f[4], b2_6);
+    const V b2_8 = r21 * f[5];
+    const V b2_9 = fma(r20, f[7], b2_8);
+    const V b2_10 = fma(r22, b2_2, b2_9);
+    const V b2_11 = r01 * f[4];
+    const V b2_12 = fma(r00, b2_1, b2_11);
+    const V b2_13 = fma(r02, f[7], b2_12);
+    const V b2_14 = r02 * f[5];
+    const V b2_15 = fma(r00, f[4], b2_14);
+    const V b2_16 = r01 * f[5];
+    const V b2_17 = fma(r00, f[7], b2_16);
+    const V b2_18 = fma(r02, b2_2, b2_17);
+    const V b2_19 = fma(-r20, b2_5, b2_2);
+    const V b2_20 = fma(-r21, b2_7, b2_19);
+    const V b2_21 = fma(-r22, b2_10, b2_20);
+    const V b2_22 = fma(T(0.5), b2_21, f[8]);
+    const V b2_23 = r11 * b2_15;
+    const V b2_24 = fma(r10, b2_13, b2_23);
+    const V b2_25 = fma(r12, b2_18, b2_24);
+    const V b2_26 = r11 * b2_7;
+    const V b2_27 = fma(r10, b2_5, b2_26);
+    const V b2_28 = fma(r12, b2_10, b2_27);
+    const V b2_29 = fma(T(-0.8660254037844386), b2_21, f[6]);
+    const V b2_30 = r01 * b2_7;
+    const V b2_31 = fma(r00, b2_5, b2_30);
+    const V b2_32 = fma(r02, b2_10, b2_31);
+    const V b2_33 = fma(-r00, b2_13, b2_22);
+    const V b2_34 = fma(-r01, b2_15, b2_33);
+    const V b2_35 = fma(r02, b2_18, -b2_34);
+    out[4] = b2_25;
+    out[5] = b2_28;
+    out[6] = b2_29;
+    out[7] = b2_32;
+    out[8] = b2_35;
+    const V b3_1 = T(1.2649110640673518) * f[12];
+    const V b3_2 = T(1.0327955589886446) * f[13];
+    const V b3_3 = T(1.0327955589886446) * f[11];
+    const V b3_4 = T(0.81649658092772603) * f[10];
+    const V b3_5 = T(0.81649658092772603) * f[14];
+    const V b3_6 = fma(T(0.5), b3_1, -b3_5);
+    const V b3_7 = b3_1 - b3_6;
+    const V b3_8 = fma(T(0.75), b3_2, -f[15]);
+    const V b3_9 = b3_2 - b3_8;
+    const V b3_10 = fma(T(0.25), b3_3, -f[9]);
+    const V b3_11 = b3_3 - b3_10;
+    const V b3_12 = r21 * b3_10;
+    const V b3_13 = fma(r20, b3_8, b3_12);
+    const V b3_14 = fma(r22, b3_6, b3_13);
+    const V b3_15 = r21 * b3_9;
+    const V b3_16 = fma(r20, b3_10, b3_15);
+    const V b3_17 = fma(-r22, b3_4, b3_16);
+    const V b3_18 = r21 * b3_4;
+    const V b3_19 = fma(r20, b3_6, -b3_18);
+    const V b3_20 = fma(-r22, b3_2, b3_19);
+    const V b3_21 = r21 * b3_11;
+    const V b3_22 = fma(r20, b3_9, b3_21);
+    const V b3_23 = fma(r22, b3_7, b3_22);
+    const V b3_24 = r21 * b3_7;
+    const V b3_25 = fma(r20, b3_4, -b3_24);
+    const V b3_26 = fma(r22, b3_3, b3_25);
+    const V b3_27 = b3_14 + b3_23;
+    const V b3_28 = r01 * b3_10;
+    const V b3_29 = fma(r00, b3_8, b3_28);
+    const V b3_30 = fma(r02, b3_6, b3_29);
+    const V b3_31 = r01 * b3_9;
+    const V b3_32 = fma(r00, b3_10, b3_31);
+    const V b3_33 = fma(-r02, b3_4, b3_32);
+    const V b3_34 = r01 * b3_4;
+    const V b3_35 = fma(r00, b3_6, -b3_34);
+    const V b3_36 = fma(-r02, b3_2, b3_35);
+    const V b3_37 = r01 * b3_11;
+    const V b3_38 = fma(r00, b3_9, b3_37);
+    const V b3_39 = fma(r02, b3_7, b3_38);
+    const V b3_40 = r01 * b3_7;
+    const V b3_41 = fma(r00, b3_4, -b3_40);
+    const V b3_42 = fma(r02, b3_3, b3_41);
+    const V b3_43 = b3_30 + b3_39;
+    const V b3_44 = r21 * b3_17;
+    const V b3_45 = fma(r20, b3_14, b3_44);
+    const V b3_46 = fma(r22, b3_20, b3_45);
+    const V b3_47 = r21 * b3_23;
+    const V b3_48 = fma(r20, b3_17, b3_47);
+    const V b3_49 = fma(-r22, b3_26, b3_48);
+    const V b3_50 = r21 * b3_26;
+    const V b3_51 = fma(r20, b3_20, -b3_50);
+    const V b3_52 = fma(-r22, b3_27, b3_51);
+    const V b3_53 = r01 * b3_17;
+    const V b3_54 = fma(r00, b3_14, b3_53);
+    const V b3_55 = fma(r02, b3_20, b3_54);
+    const V b3_56 = r01 * b3_23;
+    const V b3_57 = fma(r00, b3_17, b3_56);
+    const V b3_58 = fma(-r02, b3_26, b3_57);
+    const V b3_59 = r01 * b3_26;
+    const V b3_60 = fma(r00, b3_20, -b3_59);
+    const V b3_61 = fma(-r02, b3_27, b3_60);
+    const V b3_62 = r01 * b3_33;
+    const V b3_63 = fma(r00, b3_30, b3_62);
+    const V b3_64 = fma(r02, b3_36, b3_63);
+    const V b3_65 = r01 * b3_39;
+    const V b3_66 = fma(r00, b3_33, b3_65);
+    const V b3_67 = fma(-r02, b3_42, b3_66);
+    const V b3_68 = r01 * b3_42;
+    const V b3_69 = fma(r00, b3_36, -b3_68);
+    const V b3_70 = fma(-r02, b3_43, b3_69);
+    const V b3_71 = r21 * b3_49;
+    const V b3_72 = fma(r20, b3_46, b3_71);
+    const V b3_73 = fma(r22, b3_52, b3_72);
+    const V b3_74 = r01 * b3_49;
+    const V b3_75 = fma(r00, b3_46, b3_74);
+    const V b3_76 = fma(r02, b3_52, b3_75);
+    const V b3_77 = r11 * b3_49;
+    const V b3_78 = fma(r10, b3_46, b3_77);
+    const V b3_79 = fma(r12, b3_52, b3_78);
+    const V b3_80 = r01 * b3_58;
+    const V b3_81 = fma(r00, b3_55, b3_80);
+    const V b3_82 = fma(r02, b3_61, b3_81);
+    const V b3_83 = r11 * b3_58;
+    const V b3_84 = fma(r10, b3_55, b3_83);
+    const V b3_85 = fma(r12, b3_61, b3_84);
+    const V b3_86 = r01 * b3_67;
+    const V b3_87 = fma(r00, b3_64, b3_86);
+    const V b3_88 = fma(r02, b3_70, b3_87);
+    const V b3_89 = r11 * b3_67;
+    const V b3_90 = fma(r10, b3_64, b3_89);
+    const V b3_91 = fma(r12, b3_70, b3_90);
+    const V b3_92 = fma(T(0.5), b3_73, b3_82);
+    const V b3_93 = fma(T(-0.25), b3_79, -b3_91);
+    const V b3_94 = T(-1.2247448713915889) * b3_85;
+    const V b3_95 = T(-0.96824583655185426) * b3_79;
+    const V b3_96 = T(-0.79056941504209488) * b3_73;
+    const V b3_97 = T(-0.96824583655185426) * b3_76;
+    const V b3_98 = T(-1.2247448713915889) * b3_92;
+    const V b3_99 = fma(T(-0.75), b3_76, -b3_88);
+    out[9] = b3_93;
+    out[10] = b3_94;
+    out[11] = b3_95;
+    out[12] = b3_96;
+    out[13] = b3_97;
+    out[14] = b3_98;
+    out[15] = b3_99;
 }
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.

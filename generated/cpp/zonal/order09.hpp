@@ -117,6 +117,9 @@ inline constexpr int kHasLobes = 1;
 /// 1 where lobes of each band's own are here, else 0.
 inline constexpr int kHasPerBandLobes = 1;
 
+/// 1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0.
+inline constexpr int kHasPolynomial = 0;
+
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 179;
 
