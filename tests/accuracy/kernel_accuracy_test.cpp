@@ -59,6 +59,23 @@ std::vector<accuracy::Contestant<T>> compiled_kernels() {
     }
 ZONAL_FOR_EACH_ORDER(ZONAL_ACCURACY_TESTS)
 
+/// Mirrors are its own: it is given them as they are.
+template <int N, class T>
+std::vector<accuracy::Contestant<T>> polynomial_kernel() {
+    return {{"rotate_polynomial",
+             [](const T* R, const T* f, T* out) { PolynomialOrder<N>::rotate(R, f, out); },
+             banner::bound(N, "rotate_polynomial").excess}};
+}
+
+#define ZONAL_POLYNOMIAL_ACCURACY_TESTS(N)                                    \
+    TEST(KernelAccuracy, polynomial_of_order_##N##_float_is_within_bounds) {  \
+        expect_within_bounds<float>(N, polynomial_kernel<N, float>());        \
+    }                                                                         \
+    TEST(KernelAccuracy, polynomial_of_order_##N##_double_is_within_bounds) { \
+        expect_within_bounds<double>(N, polynomial_kernel<N, double>());      \
+    }
+ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_POLYNOMIAL_ACCURACY_TESTS)
+
 template <int N, class T>
 std::vector<accuracy::Contestant<T>> lobe_kernels() {
     return {

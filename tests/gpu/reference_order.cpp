@@ -63,6 +63,9 @@ std::vector<ReferenceKernel> kernels() {
         named("rotate_accurate", ZONAL_TURN(order, rotate_accurate, 9)),
         named("blocks", ZONAL_OF_ROTATION(order, blocks, N * (4 * N * N - 1) / 3)),
     };
+#if ZONAL_GPU_ORDER == 4
+    all.push_back(named("rotate_polynomial", ZONAL_TURN(order, rotate_polynomial, 9)));
+#endif
 #if ZONAL_GPU_ORDER > 2
     constexpr int kRing = 2 * N - 1;
 #define ZONAL_LOBES(prefix, place, weights, directions)                                          \
@@ -79,6 +82,7 @@ std::vector<ReferenceKernel> kernels() {
     return all;
 }
 
+static_assert(order::kHasPolynomial == (N == 4));
 static_assert(order::kHasLobes == (N > 2) && order::kHasPerBandLobes == (N > 2));
 
 [[maybe_unused]] const bool kIsAdded = add_reference_kernels(N, kernels());

@@ -138,13 +138,15 @@ struct Properties {
         expect_same_in_place([&](const double* in, double* out) { Order<N>::apply(scalars, in, out); });
     }
 
-    void a_value_that_is_not_finite_stays_in_its_band() {
+    /// `turn`: the signal's turn by `rotation`.
+    template <class Turn>
+    void expect_bands_apart(Turn turn) {
         for (const double bad :
              {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
             for (int broken = 0; broken < N; ++broken) {
                 std::vector<double> spoilt = f;
                 spoilt[broken * broken] = bad;
-                const auto clean = rotated<N>(rotation, f), result = rotated<N>(rotation, spoilt);
+                const std::vector<double> clean = turn(f), result = turn(spoilt);
                 for (int i = 0; i < N * N; ++i) {
                     const bool is_in_band = broken * broken <= i && i < (broken + 1) * (broken + 1);
                     if (is_in_band) continue;
@@ -153,6 +155,9 @@ struct Properties {
                 EXPECT_FALSE(std::isfinite(norm(result)));
             }
         }
+    }
+    void a_value_that_is_not_finite_stays_in_its_band() {
+        expect_bands_apart([&](const std::vector<double>& signal) { return rotated<N>(rotation, signal); });
     }
 
     template <class T>
@@ -228,15 +233,46 @@ struct Properties {
         EXPECT_LE(distance(applied, expected), tolerance<N>() * norm(f));
     }
 
-    void the_accurate_kernel_takes_mirrors() {
+    template <class Run>
+    void expect_mirrors_taken(Run run) {
         Matrix mirror = rotation;
         for (double& entry : mirror) entry = -entry;
         std::vector<double> out(N * N), expected = rotated<N>(rotation, f);
-        Order<N>::rotate_accurate(mirror.data(), f.data(), out.data());
+        run(mirror.data(), f.data(), out.data());
         for (int l = 1; l < N; l += 2)
             for (int i = l * l; i < (l + 1) * (l + 1); ++i) expected[i] = -expected[i];
         EXPECT_LE(distance(out, expected), tolerance<N>() * norm(f));
     }
+    void the_accurate_kernel_takes_mirrors() {
+        expect_mirrors_taken(
+            [](const double* r, const double* in, double* out) { Order<N>::rotate_accurate(r, in, out); });
+    }
+};
+
+/// What `rotate_polynomial` must do.
+template <int N>
+struct PolynomialProperties : Properties<N> {
+    static void run(const double* r, const double* in, double* out) {
+        PolynomialOrder<N>::rotate(r, in, out);
+    }
+    std::vector<double> turned(const std::vector<double>& signal) const {
+        std::vector<double> out(N * N);
+        run(this->rotation.data(), signal.data(), out.data());
+        return out;
+    }
+
+    void it_turns_as_rotate_does() {
+        EXPECT_LE(distance(turned(this->f), rotated<N>(this->rotation, this->f)),
+                  tolerance<N>() * norm(this->f));
+    }
+    void it_may_overwrite_its_input() {
+        this->expect_same_in_place(
+            [&](const double* in, double* out) { run(this->rotation.data(), in, out); });
+    }
+    void it_keeps_a_value_that_is_not_finite_in_its_band() {
+        this->expect_bands_apart([&](const std::vector<double>& signal) { return turned(signal); });
+    }
+    void it_takes_mirrors() { this->expect_mirrors_taken(run); }
 };
 
 template <int N>
@@ -457,6 +493,31 @@ struct Counts {
     };
 };
 
+template <int N>
+struct PolynomialCounts : Counts<N> {
+    void the_banner_tells_what_a_counting_type_sees() {
+        this->expect_banner("rotate_polynomial", [&] {
+            PolynomialOrder<N>::rotate(this->r.data(), this->in.data(), this->out.data());
+        });
+    }
+
+    void it_neither_divides_nor_takes_a_root() {
+        Counting::tally = {};
+        PolynomialOrder<N>::rotate(this->r.data(), this->in.data(), this->out.data());
+        EXPECT_GT(Counting::tally.fma, 0);
+        EXPECT_EQ(Counting::tally.other, 0);
+    }
+
+    void a_further_vector_costs_what_the_banner_says() {
+        using Value = typename Counts<N>::PerVector;
+        std::vector<Value> f(N * N), result(N * N);
+        const std::vector<double> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+        Value::tally = {};
+        PolynomialOrder<N>::rotate(rotation.data(), f.data(), result.data());
+        EXPECT_EQ(text_of(Value::tally), banner::cost(N, "rotate_polynomial").further);
+    }
+};
+
 template <class Kernels>
 struct LobeCounts {
     static constexpr int N = Kernels::kOrder;
@@ -512,11 +573,19 @@ template <class Check>
 void for_each_per_band_order(Check check) {
     ZONAL_FOR_EACH_PER_BAND_ORDER(ZONAL_CHECK_ORDER)
 }
+template <class Check>
+void for_each_polynomial_order([[maybe_unused]] Check check) {
+    ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_CHECK_ORDER)
+}
 #undef ZONAL_CHECK_ORDER
 
 #define ZONAL_TEST(suite, name)                                                     \
     TEST(suite, name) {                                                             \
         for_each_order([](auto order) { suite<decltype(order)::value>{}.name(); }); \
+    }
+#define ZONAL_POLYNOMIAL_TEST(suite, name)                                                     \
+    TEST(suite, name) {                                                                        \
+        for_each_polynomial_order([](auto order) { suite<decltype(order)::value>{}.name(); }); \
     }
 /// For shared lobes and for the ring.
 #define ZONAL_LOBE_TEST(suite, name)                             \
@@ -549,6 +618,13 @@ ZONAL_TEST(Properties, the_accurate_kernel_takes_mirrors)
 ZONAL_TEST(Counts, banners_tell_what_a_counting_type_sees)
 ZONAL_TEST(Counts, a_further_vector_costs_what_the_banner_says)
 ZONAL_TEST(Counts, rotate_costs_no_more_than_its_goal)
+ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_turns_as_rotate_does)
+ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_may_overwrite_its_input)
+ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_keeps_a_value_that_is_not_finite_in_its_band)
+ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_takes_mirrors)
+ZONAL_POLYNOMIAL_TEST(PolynomialCounts, the_banner_tells_what_a_counting_type_sees)
+ZONAL_POLYNOMIAL_TEST(PolynomialCounts, it_neither_divides_nor_takes_a_root)
+ZONAL_POLYNOMIAL_TEST(PolynomialCounts, a_further_vector_costs_what_the_banner_says)
 ZONAL_PRODUCT_TEST(LobeProperties, factorize_and_expand_undo_each_other)
 ZONAL_PRODUCT_TEST(LobeProperties, weights_of_the_lobes_sum_to_the_signal)
 ZONAL_PRODUCT_TEST(LobeProperties, turned_lobes_are_r_times_those_of_the_identity)
@@ -566,6 +642,7 @@ TEST(LobeCounts, rotate_zhf_multiplies_less_than_the_paper) {
     });
 }
 #undef ZONAL_TEST
+#undef ZONAL_POLYNOMIAL_TEST
 #undef ZONAL_LOBE_TEST
 #undef ZONAL_PRODUCT_TEST
 
