@@ -21,6 +21,7 @@ constexpr int kRotations = 10000;
 constexpr const char* kBaseline = "memcpy";
 
 const std::vector<std::string> kKernels{"rotate", "rotate_accurate"};
+const std::vector<std::string> kPolynomialKernels{"rotate_polynomial"};
 const std::vector<std::string> kLobeKernels{"rotate_zhf", "factorize", "expand", "resample", "lobes"};
 
 /// The vectors one benchmark works on: a rotation of its own for each, plain arrays.
@@ -72,6 +73,13 @@ void register_benchmarks() {
 }
 
 template <int N, class T>
+void register_polynomial_benchmarks() {
+    register_benchmark<N, T>("rotate_polynomial", [](const T* R, const T* in, T* out, T*) {
+        PolynomialOrder<N>::rotate(R, in, out);
+    });
+}
+
+template <int N, class T>
 void register_lobe_benchmarks() {
     using Kernels = LobeOrder<N>;
     const auto add = [](const char* kernel, auto run) { register_benchmark<N, T>(kernel, run); };
@@ -102,6 +110,15 @@ Errors measure_errors() {
     Errors errors;
     note_worst<T>(errors, N,
                   {Order<N>::kTakesMirrors ? rotate : accuracy::with_mirrors(N, rotate), accurate});
+    return errors;
+}
+
+template <int N, class T>
+Errors measure_polynomial_errors() {
+    Errors errors;
+    note_worst<T>(errors, N, {{"rotate_polynomial", [](const T* R, const T* f, T* out) {
+                                   PolynomialOrder<N>::rotate(R, f, out);
+                               }}});
     return errors;
 }
 
@@ -226,6 +243,11 @@ void run(const std::string& stats, double seconds) {
     register_benchmarks<N, double>();
     ZONAL_FOR_EACH_ORDER(ZONAL_REGISTER)
 #undef ZONAL_REGISTER
+#define ZONAL_REGISTER(N)                       \
+    register_polynomial_benchmarks<N, float>(); \
+    register_polynomial_benchmarks<N, double>();
+    ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_REGISTER)
+#undef ZONAL_REGISTER
 #define ZONAL_REGISTER(N)                 \
     register_lobe_benchmarks<N, float>(); \
     register_lobe_benchmarks<N, double>();
@@ -260,6 +282,11 @@ void run(const std::string& stats, double seconds) {
     print_rows(N, times, kKernels, measure_errors<N, float>(), measure_errors<N, double>()); \
     print_rows(N, times, {kBaseline}, {{kBaseline, 0}}, {{kBaseline, 0}});
     ZONAL_FOR_EACH_ORDER(ZONAL_PRINT)
+#undef ZONAL_PRINT
+#define ZONAL_PRINT(N)                                                              \
+    print_rows(N, times, kPolynomialKernels, measure_polynomial_errors<N, float>(), \
+               measure_polynomial_errors<N, double>());
+    ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_PRINT)
 #undef ZONAL_PRINT
 #define ZONAL_PRINT(N) \
     print_rows(N, times, kLobeKernels, measure_lobe_errors<N, float>(), measure_lobe_errors<N, double>());
