@@ -306,11 +306,24 @@ class Batch {
 
     template <class Flow>
     HWY_INLINE void turn_row(const Turn& turn, const T* in, T* out, std::size_t stride, Flow flow) const {
+        if constexpr (kFirst == 0 && kColumns % kBlock<T> == 1) {
+            if (!is_touching_nine<T, kColumns>(stride)) {
+                turn_columns<1>(turn, in + 1, out + 1, stride, flow);
+                for (std::size_t k = 0; k < kWidth; ++k) out[k * stride] = in[k * stride];
+                return;
+            }
+        }
+        turn_columns<kFirst>(turn, in, out, stride, flow);
+    }
+
+    /// Coefficients from kFrom on; kFrom = 1: what a rotation leaves as it is does not come here.
+    template <std::size_t kFrom, class Flow>
+    HWY_INLINE void turn_columns(const Turn& turn, const T* in, T* out, std::size_t stride, Flow flow) const {
         P f[kCoefficients];
-        if constexpr (kFirst == 1) f[0].lanes = hn::Zero(Tag<T>());
-        read_columns<kColumns>(in, stride, f + kFirst, [&] { flow.read(); });
+        if constexpr (kFrom == 1) f[0].lanes = hn::Zero(Tag<T>());
+        read_columns<kCoefficients - kFrom>(in, stride, f + kFrom, [&] { flow.read(); });
         turn(f);
-        write_columns<kColumns>(f + kFirst, out, stride, [&] { flow.write(); });
+        write_columns<kCoefficients - kFrom>(f + kFrom, out, stride, [&] { flow.write(); });
     }
 
     template <class Flow>

@@ -9,6 +9,7 @@
 // beside the transpositions.
 
 #include "pack.hpp"
+#include "touching_nine.hpp"
 
 namespace zonal::batch {
 namespace {
@@ -108,17 +109,13 @@ HWY_INLINE void load_block(const T* rows, std::size_t stride, Lanes<T> (&columns
     transpose_blocks<T>(columns);
 }
 
-/// Row by row of the transposed registers of neighbouring blocks; then `after(row, number of the row)`.
-template <std::size_t kCount, std::size_t kIndex = 0, class T, class After>
-HWY_INLINE void store_rows(const Lanes<T> (&blocks)[kCount][kBlock<T>], T* row, std::size_t stride,
-                           const After& after) {
-    for (std::size_t j = 0; j < kBlock<T>; ++j, row += stride) {
+/// Row by row of the transposed registers of neighbouring blocks.
+template <std::size_t kCount, std::size_t kIndex = 0, class T>
+HWY_INLINE void store_rows(const Lanes<T> (&blocks)[kCount][kBlock<T>], T* row, std::size_t stride) {
+    for (std::size_t j = 0; j < kBlock<T>; ++j, row += stride)
         for (std::size_t b = 0; b < kCount; ++b)
             store_one_block<kIndex>(Tag<T>(), blocks[b][j], row + b * kBlock<T>);
-        after(row, kIndex * kBlock<T> + j);
-    }
-    if constexpr ((kIndex + 1) * kBlock<T> < kLanes<T>)
-        store_rows<kCount, kIndex + 1>(blocks, row, stride, after);
+    if constexpr ((kIndex + 1) * kBlock<T> < kLanes<T>) store_rows<kCount, kIndex + 1>(blocks, row, stride);
 }
 
 /// Values a row must have in memory, so that reading or writing kColumns of it stays within it.
@@ -134,6 +131,10 @@ template <std::size_t kColumns, class T, class Between = Nothing>
 HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns,
                              const Between& between = {}) {
     constexpr std::size_t kWhole = kColumns - kColumns % kBlock<T>;
+    if (is_touching_nine<T, kColumns>(stride)) {
+        for (std::size_t c = 0; c < kWhole; c += kBlock<T>) between();
+        return read_touching_nine(rows, columns);
+    }
     Lanes<T> block[kBlock<T>];
     for (std::size_t c = 0; c < kWhole; c += kBlock<T>) {
         between();
@@ -151,42 +152,37 @@ HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns
 template <class T>
 inline constexpr std::size_t kGroup = kLanes<T> / kBlock<T>;
 
-template <std::size_t kCount, class T, class Between, class After>
-HWY_INLINE void write_blocks(const Pack<T>* columns, T* rows, std::size_t stride, const Between& between,
-                             const After& after) {
+template <std::size_t kCount, class T, class Between>
+HWY_INLINE void write_blocks(const Pack<T>* columns, T* rows, std::size_t stride, const Between& between) {
     Lanes<T> blocks[kCount][kBlock<T>];
     for (std::size_t b = 0; b < kCount; ++b) {
         between();
         for (std::size_t j = 0; j < kBlock<T>; ++j) blocks[b][j] = columns[b * kBlock<T> + j].lanes;
         transpose_blocks<T>(blocks[b]);
     }
-    store_rows<kCount>(blocks, rows, stride, after);
+    store_rows<kCount>(blocks, rows, stride);
 }
 
 template <std::size_t kColumns, class T, class Between = Nothing>
 HWY_INLINE void write_columns(const Pack<T>* columns, T* rows, std::size_t stride,
                               const Between& between = {}) {
     constexpr std::size_t kBlocks = kColumns / kBlock<T>;
+    if (is_touching_nine<T, kColumns>(stride)) {
+        for (std::size_t b = 0; b < kBlocks; ++b) between();
+        return write_touching_nine(columns, rows);
+    }
     constexpr std::size_t kWhole = kBlocks * kBlock<T>;
     constexpr std::size_t kRest = kBlocks == 0 ? 0 : (kBlocks - 1) % kGroup<T> + 1;  ///< of the last group
     for (std::size_t b = 0; b < kBlocks - kRest; b += kGroup<T>)
-        write_blocks<kGroup<T> >(columns + b * kBlock<T>, rows + b * kBlock<T>, stride, between, Nothing());
+        write_blocks<kGroup<T> >(columns + b * kBlock<T>, rows + b * kBlock<T>, stride, between);
     constexpr std::size_t kFirst = kWhole - kRest * kBlock<T>;
-    if constexpr (kRest > 0 && kColumns - kWhole == 1) {  // a single column goes through memory
-        HWY_ALIGN T last[kLanes<T>];
-        hn::Store(columns[kWhole].lanes, Tag<T>(), last);
-        write_blocks<kRest>(columns + kFirst, rows + kFirst, stride, between,
-                            [&](T* row, std::size_t k) { row[kRest * kBlock<T>] = last[k]; });
-    } else {
-        if constexpr (kRest > 0)
-            write_blocks<kRest>(columns + kFirst, rows + kFirst, stride, between, Nothing());
-        if constexpr (kWhole < kColumns) {
-            constexpr std::size_t kLast = kRowLength<T, kColumns> - kBlock<T>;
-            Pack<T> padded[kBlock<T>];
-            for (std::size_t j = 0; j < kBlock<T>; ++j)
-                padded[j].lanes = kLast + j < kColumns ? columns[kLast + j].lanes : hn::Zero(Tag<T>());
-            write_blocks<1>(padded, rows + kLast, stride, Nothing(), Nothing());
-        }
+    if constexpr (kRest > 0) write_blocks<kRest>(columns + kFirst, rows + kFirst, stride, between);
+    if constexpr (kWhole < kColumns) {
+        constexpr std::size_t kLast = kRowLength<T, kColumns> - kBlock<T>;
+        Pack<T> padded[kBlock<T>];
+        for (std::size_t j = 0; j < kBlock<T>; ++j)
+            padded[j].lanes = kLast + j < kColumns ? columns[kLast + j].lanes : hn::Zero(Tag<T>());
+        write_blocks<1>(padded, rows + kLast, stride, Nothing());
     }
 }
 
@@ -211,12 +207,12 @@ HWY_INLINE void write_slots(const Pack<T>* columns, const unsigned short* slots,
     std::size_t c = 0;
     for (; c + kGroup<T> * kBlock<T> <= count; c += kGroup<T> * kBlock<T>) {
         for (std::size_t j = 0; j < kGroup<T> * kBlock<T>; ++j) group[j] = columns[slots[c + j]];
-        write_blocks<kGroup<T> >(group, rows + c, stride, between, Nothing());
+        write_blocks<kGroup<T> >(group, rows + c, stride, between);
     }
     for (; c < count; c += kBlock<T>) {
         const std::size_t from = c + kBlock<T> <= count ? c : count - kBlock<T>;
         for (std::size_t j = 0; j < kBlock<T>; ++j) group[j] = columns[slots[from + j]];
-        write_blocks<1>(group, rows + from, stride, between, Nothing());
+        write_blocks<1>(group, rows + from, stride, between);
     }
 }
 

@@ -1,0 +1,125 @@
+#pragma once
+
+// Nine columns of rows that touch, as matrices and vectors of order 3 lie in arrays, on AVX-512: nine whole
+// registers. Value i of these is in column i mod 9 of row i / 9. A register has 8 or 16 lanes, and 9 has no
+// divisor in common with these: so each lane meets every column once in the nine registers, and all lanes in
+// the same order, only that they begin with different columns. With the columns numbered in that order, lane
+// i of column number p is in register p + shift(i) of the ring of nine. The shift is undone in two steps of
+// three registers each: its remainder of 3 with masks, in loads and stores; the rest with permutations of two
+// registers, which bring the rows in order as well.
+
+#include <cstdint>
+
+#include "pack.hpp"
+
+namespace zonal::batch {
+namespace {
+
+/// Whether kColumns of rows `stride` apart are read and written in this way.
+template <class T, std::size_t kColumns>
+HWY_INLINE constexpr bool is_touching_nine([[maybe_unused]] std::size_t stride) {
+#if HWY_TARGET == HWY_AVX3
+    return kColumns == 9 && stride == 9;
+#else
+    return false;
+#endif
+}
+
+#if HWY_TARGET == HWY_AVX3
+
+template <class T>
+struct NineRegisters {
+    using Index = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    static constexpr std::size_t kCount = kLanes<T>;
+
+    /// What permutations of two registers take: lanes of the first from 0 on, of the second from kCount on.
+    struct alignas(64) Lookup {
+        Index lane[kCount];
+    };
+    Lookup rows_of_column[9][2];  ///< which lanes of three registers a column is made of, in two steps
+    Lookup rows_of_register[9][2];
+    std::size_t column[9];                   ///< in the order above
+    std::size_t number[9];                   ///< of a column in that order
+    unsigned remainder_mask[3] = {0, 0, 0};  ///< lanes whose shift leaves this remainder
+
+    constexpr NineRegisters() : rows_of_column{}, rows_of_register{}, column{}, number{} {
+        for (std::size_t p = 0; p < 9; ++p) {
+            column[p] = p * kCount % 9;
+            number[column[p]] = p;
+        }
+        for (std::size_t lane = 0; lane < kCount; ++lane) {
+            std::size_t shift = 0;
+            while ((shift * kCount + lane) % 9 != 0) ++shift;
+            remainder_mask[shift % 3] |= 1u << lane;
+            for (std::size_t p = 0; p < 9; ++p) {
+                const std::size_t row = ((p + shift) % 9 * kCount + lane) / 9;
+                const auto choose = [&](Lookup* steps, std::size_t to, std::size_t from) {
+                    steps[0].lane[to] = static_cast<Index>(from + (shift / 3 == 1 ? kCount : 0));
+                    steps[1].lane[to] = static_cast<Index>(shift / 3 == 2 ? kCount + from : to);
+                };
+                choose(rows_of_column[column[p]], row, lane);
+                choose(rows_of_register[(p + shift / 3 * 3) % 9], lane, row);
+            }
+        }
+    }
+};
+
+template <class T>
+inline constexpr NineRegisters<T> kNine;
+
+template <class T>
+HWY_INLINE hn::Mask<Tag<T>> nine_mask(std::size_t remainder) {
+    using Mask = hn::Mask<Tag<T>>;
+    return Mask{static_cast<decltype(Mask::raw)>(kNine<T>.remainder_mask[remainder])};
+}
+
+/// Of three registers one, as both steps of `steps` tell.
+template <class T>
+HWY_INLINE Lanes<T> look_up(Lanes<T> a, Lanes<T> b, Lanes<T> c,
+                            const typename NineRegisters<T>::Lookup (&steps)[2]) {
+    const __m512i first = _mm512_load_si512(steps[0].lane);
+    const __m512i second = _mm512_load_si512(steps[1].lane);
+    if constexpr (sizeof(T) == 4)
+        return Lanes<T>{_mm512_permutex2var_ps(_mm512_permutex2var_ps(a.raw, first, b.raw), second, c.raw)};
+    else
+        return Lanes<T>{_mm512_permutex2var_pd(_mm512_permutex2var_pd(a.raw, first, b.raw), second, c.raw)};
+}
+
+template <class T>
+HWY_INLINE void read_touching_nine(const T* rows, Pack<T>* columns) {
+    const Tag<T> d;
+    Lanes<T> shifted[9];
+    for (std::size_t r = 0; r < 9; ++r) {
+        const auto load = [&](std::size_t k) { return hn::LoadU(d, rows + (r + k) % 9 * kLanes<T>); };
+        shifted[r] = hn::IfThenElse(nine_mask<T>(1), load(1), load(0));
+        shifted[r] = hn::IfThenElse(nine_mask<T>(2), load(2), shifted[r]);
+    }
+    for (std::size_t c = 0; c < 9; ++c) {
+        const auto at = [&](std::size_t step) { return shifted[(kNine<T>.number[c] + step) % 9]; };
+        columns[c].lanes = look_up<T>(at(0), at(3), at(6), kNine<T>.rows_of_column[c]);
+    }
+}
+
+template <class T>
+HWY_INLINE void write_touching_nine(const Pack<T>* columns, T* rows) {
+    Lanes<T> shifted[9];
+    for (std::size_t r = 0; r < 9; ++r) {
+        const auto at = [&](std::size_t step) { return columns[kNine<T>.column[(r + step) % 9]].lanes; };
+        shifted[r] = look_up<T>(at(0), at(6), at(3), kNine<T>.rows_of_register[r]);
+    }
+    for (std::size_t r = 0; r < 9; ++r)
+        for (std::size_t k = 0; k < 3; ++k)
+            hn::BlendedStore(shifted[(r + 9 - k) % 9], nine_mask<T>(k), Tag<T>(), rows + r * kLanes<T>);
+}
+
+#else
+
+template <class T>
+HWY_INLINE void read_touching_nine(const T*, Pack<T>*) {}
+template <class T>
+HWY_INLINE void write_touching_nine(const Pack<T>*, T*) {}
+
+#endif
+
+}  // namespace
+}  // namespace zonal::batch
