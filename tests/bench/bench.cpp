@@ -192,7 +192,7 @@ int instructions_of(const Workload& workload, bool is_fused) {
         const Tally& t = Counting::tally;
         return t.mul + t.add + (is_fused ? 1 : 2) * t.fma + t.other;
     };
-    const int once = counted([&] { Kernels::rotate(R, f); });
+    const int once = counted([&] { AtOnce<N>::rotate(R, f); });
     const int prepare = counted([&] { Kernels::prepare(R, scalars); });
     const int apply = counted([&] { Kernels::apply(scalars, f); });
     if (workload.rotation_length > 0 && workload.channels == 1) return once;

@@ -83,11 +83,9 @@ HWY_INLINE void load_rotations(const T* rows, std::size_t stride, P* R) {
 
 /// What makes rotations proper, where the kernel needs them so: the sign of each determinant, +1 for a NaN. A
 /// mirror is a rotation by -R with odd bands negated.
-template <int N, RotationForm kForm>
+template <int N, bool kMayMirror>
 class Sign {
   public:
-    static constexpr bool kMayMirror = !PackKernels<N>::kTakesMirrors && kForm == RotationForm::matrix;
-
     /// Multiplies R by the signs.
     HWY_INLINE void take_from(P* R) {
         if constexpr (kMayMirror) {
@@ -118,7 +116,7 @@ class Sign {
 
 template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void rotate_called(const P* R, P* f) {
-    PackKernels<N>::rotate(R, f);
+    AtOnce<N>::rotate(R, f);
 }
 template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void prepare_called(const P* R, P* scalars) {
@@ -146,14 +144,14 @@ class Once {
     HWY_INLINE void operator()(P* f) const {
         sign_.negate_odd_bands(f);
         if constexpr (N <= kLargestInlined)
-            PackKernels<N>::rotate(R_, f);
+            AtOnce<N>::rotate(R_, f);
         else
             rotate_called<N>(R_, f);
     }
 
   private:
     P R_[9];
-    Sign<N, kForm> sign_;
+    Sign<N, !AtOnce<N>::kTakesMirrors && kForm == RotationForm::matrix> sign_;
 };
 
 /// The same in two steps: what depends on the rotations only is kept. For one channel that is faster than at
@@ -182,7 +180,7 @@ class Prepared {
     }
 
   private:
-    Sign<N, kForm> sign_;
+    Sign<N, !PackKernels<N>::kTakesMirrors && kForm == RotationForm::matrix> sign_;
     P scalars_[PackKernels<N>::kScalars];
 };
 
@@ -405,7 +403,7 @@ void run_each(const Job<T>& job) {
 template <int N, int kFirst, RotationForm kForm>
 void each(const Job<T>& job) {
     // Products only: nothing that is worth keeping. Called: one call is better than two.
-    constexpr bool kIsOnce = PackKernels<N>::kTakesMirrors || N > kLargestInlined;
+    constexpr bool kIsOnce = AtOnce<N>::kTakesMirrors || N > kLargestInlined;
     using One = std::conditional_t<kIsOnce, Once<N, kForm>, Prepared<N, kForm, Use::one_channel>>;
     job.channels == 1 ? run_each<N, kFirst, One>(job)
                       : run_each<N, kFirst, Prepared<N, kForm, Use::channels>>(job);

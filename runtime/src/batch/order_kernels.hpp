@@ -30,4 +30,27 @@ struct PackKernels;
 ZONAL_FOR_EACH_ORDER(ZONAL_PACK_KERNELS)
 #undef ZONAL_PACK_KERNELS
 
+/// What turns one vector a lane: `rotate_polynomial` where there is one, for packs wait longer for divisions
+/// and roots than its further products take.
+template <int N>
+struct AtOnce {
+    static constexpr bool kTakesMirrors = PackKernels<N>::kTakesMirrors;
+    template <class P>
+    static void rotate(const P* rotation, P* f) {
+        PackKernels<N>::rotate(rotation, f);
+    }
+};
+
+#define ZONAL_POLYNOMIAL_KERNEL(N)                             \
+    template <>                                                \
+    struct AtOnce<N> {                                         \
+        static constexpr bool kTakesMirrors = true;            \
+        template <class P>                                     \
+        static void rotate(const P* rotation, P* f) {          \
+            order##N::rotate_polynomial<P, P>(rotation, f, f); \
+        }                                                      \
+    };
+ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_POLYNOMIAL_KERNEL)
+#undef ZONAL_POLYNOMIAL_KERNEL
+
 }  // namespace zonal
