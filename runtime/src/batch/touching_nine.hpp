@@ -5,8 +5,8 @@
 // divisor in common with these: so each lane meets every column once in the nine registers, and all lanes in
 // the same order, only that they begin with different columns. With the columns numbered in that order, lane
 // i of column number p is in register p + shift(i) of the ring of nine. The shift is undone in two steps of
-// three registers each: its remainder of 3 with masks, in loads and stores; the rest with permutations of two
-// registers, which bring the rows in order as well.
+// three registers each: its remainder of 3 with masks; the rest with permutations of two registers, which
+// bring the rows in order as well.
 
 #include <cstdint>
 
@@ -67,10 +67,14 @@ struct NineRegisters {
 template <class T>
 inline constexpr NineRegisters<T> kNine;
 
+/// In every lane the register that the remainder of its shift tells. Stores with masks instead would be
+/// faster at addresses that are whole lines, and much slower at others.
 template <class T>
-HWY_INLINE hn::Mask<Tag<T>> nine_mask(std::size_t remainder) {
+HWY_INLINE Lanes<T> choose_three(Lanes<T> a, Lanes<T> b, Lanes<T> c) {
     using Mask = hn::Mask<Tag<T>>;
-    return Mask{static_cast<decltype(Mask::raw)>(kNine<T>.remainder_mask[remainder])};
+    const auto mask = [](unsigned bits) { return Mask{static_cast<decltype(Mask::raw)>(bits)}; };
+    const Lanes<T> either = hn::IfThenElse(mask(kNine<T>.remainder_mask[1]), b, a);
+    return hn::IfThenElse(mask(kNine<T>.remainder_mask[2]), c, either);
 }
 
 /// Of three registers one, as both steps of `steps` tell.
@@ -87,13 +91,10 @@ HWY_INLINE Lanes<T> look_up(Lanes<T> a, Lanes<T> b, Lanes<T> c,
 
 template <class T>
 HWY_INLINE void read_touching_nine(const T* rows, Pack<T>* columns) {
-    const Tag<T> d;
-    Lanes<T> shifted[9];
-    for (std::size_t r = 0; r < 9; ++r) {
-        const auto load = [&](std::size_t k) { return hn::LoadU(d, rows + (r + k) % 9 * kLanes<T>); };
-        shifted[r] = hn::IfThenElse(nine_mask<T>(1), load(1), load(0));
-        shifted[r] = hn::IfThenElse(nine_mask<T>(2), load(2), shifted[r]);
-    }
+    Lanes<T> whole[9], shifted[9];
+    for (std::size_t r = 0; r < 9; ++r) whole[r] = hn::LoadU(Tag<T>(), rows + r * kLanes<T>);
+    for (std::size_t r = 0; r < 9; ++r)
+        shifted[r] = choose_three<T>(whole[r], whole[(r + 1) % 9], whole[(r + 2) % 9]);
     for (std::size_t c = 0; c < 9; ++c) {
         const auto at = [&](std::size_t step) { return shifted[(kNine<T>.number[c] + step) % 9]; };
         columns[c].lanes = look_up<T>(at(0), at(3), at(6), kNine<T>.rows_of_column[c]);
@@ -107,9 +108,10 @@ HWY_INLINE void write_touching_nine(const Pack<T>* columns, T* rows) {
         const auto at = [&](std::size_t step) { return columns[kNine<T>.column[(r + step) % 9]].lanes; };
         shifted[r] = look_up<T>(at(0), at(6), at(3), kNine<T>.rows_of_register[r]);
     }
-    for (std::size_t r = 0; r < 9; ++r)
-        for (std::size_t k = 0; k < 3; ++k)
-            hn::BlendedStore(shifted[(r + 9 - k) % 9], nine_mask<T>(k), Tag<T>(), rows + r * kLanes<T>);
+    for (std::size_t r = 0; r < 9; ++r) {
+        const auto at = [&](std::size_t step) { return shifted[(r + 9 - step) % 9]; };
+        hn::StoreU(choose_three<T>(at(0), at(1), at(2)), Tag<T>(), rows + r * kLanes<T>);
+    }
 }
 
 #else
