@@ -29,6 +29,9 @@ namespace {
 constexpr double kMargin = 1.5;
 constexpr double kExcessMargin = 1.1;
 
+/// Of the problems with random rotations one in so many.
+constexpr int kThinning = 30;
+
 struct Options {
     int rotations = 0;
     std::uint64_t seed = 1;
@@ -77,21 +80,44 @@ oracle::Matrix3 widened(const double* r) {
     return matrix;
 }
 
+/// Rotations that are meant not to be orthonormal: random ones, and those of the problems in both types,
+/// whose error would otherwise be taken for one of rounding.
+std::vector<oracle::Matrix3> noisy_rotations(int order, const Options& options) {
+    std::vector<oracle::Matrix3> rotations;
+    std::mt19937_64 random(options.seed);
+    for (int k = 0; k < 2 * options.rotations; ++k) {
+        const double noise = k % 2 == 0 ? 1e-3 : 1e-5;  // at high orders 1e-3 costs more than in proportion
+        rotations.push_back(widened(cases::with_noise(cases::random_rotation(random), noise, random).data()));
+    }
+    const auto add_problems = [&](auto zero) {
+        using T = decltype(zero);
+        for (const auto& problem : accuracy::problems<T>(order, options.rotations, kThinning, options.seed)) {
+            if (!problem.is_noisy) continue;
+            oracle::Matrix3 given;
+            std::transform(problem.rotation.begin(), problem.rotation.end(), given.begin(),
+                           [](double entry) { return static_cast<T>(entry); });
+            rotations.push_back(given);
+        }
+    };
+    add_problems(0.0);
+    add_problems(0.0f);
+    return rotations;
+}
+
 /// What |R R^T - I|_F costs each kernel at the most, and at least what the project's contract grants.
 std::map<std::string, double> measure_excess(const OrderKernels& order, const Options& options) {
     const auto kernels = graph_contestants<double>(order.order, order.kernels, {});
     const oracle::Rotation exact(order.order);
-    std::mt19937_64 random(options.seed);
     std::map<std::string, double> excess;
     for (const auto& kernel : kernels) excess[kernel.name] = (order.order - 1) / 2.0;
-    for (int k = 0; k < 2 * options.rotations; ++k) {
-        const double noise = k % 2 == 0 ? 1e-3 : 1e-5;  // at high orders 1e-3 costs more than in proportion
-        const cases::Matrix noisy = cases::with_noise(cases::random_rotation(random), noise, random);
-        const oracle::Matrix3 given = widened(noisy.data());
+    for (const oracle::Matrix3& given : noisy_rotations(order.order, options)) {
         const auto blocks = exact.blocks(given);
         const double defect = static_cast<double>(oracle::orthonormality_error(given));
+        double r[9];
+        std::transform(given.begin(), given.end(), r,
+                       [](const Real& entry) { return static_cast<double>(entry); });
         for (const auto& kernel : kernels) {
-            const double gain = worst_signal(order.order, blocks, noisy.data(), kernel).gain / defect;
+            const double gain = worst_signal(order.order, blocks, r, kernel).gain / defect;
             excess[kernel.name] = std::max(excess[kernel.name], kExcessMargin * gain);
         }
     }
@@ -103,7 +129,6 @@ template <class T>
 std::map<std::string, double> measure_bounds(const OrderKernels& order,
                                              const std::map<std::string, double>& excess,
                                              const Options& options) {
-    constexpr int kThinning = 30;
     const auto kernels = graph_contestants<T>(order.order, order.kernels, excess);
     const oracle::Rotation exact(order.order);
     std::vector<accuracy::Problem> problems =
