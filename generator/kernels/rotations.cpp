@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "graph/passes.hpp"
+#include "kernels/contraction.hpp"
 #include "kernels/dense_blocks.hpp"
 #include "kernels/planner.hpp"
 
@@ -71,12 +72,6 @@ Kernel build_blocks(int order) {
     return graph::optimize(kernel);
 }
 
-/// Nothing but products and sums, mirrors included.
-bool contracts_every_band(const Plan& plan) {
-    return std::ranges::all_of(plan,
-                               [](const BandPlan& band) { return band.method == BandMethod::contraction; });
-}
-
 bool is_same_work(const Kernel& a, const Kernel& b) {
     const auto weight_of = [](const Kernel& kernel, int vectors) { return weight(kernel, {vectors, false}); };
     return weight_of(a, 0) == weight_of(b, 0) && weight_of(a, 1) == weight_of(b, 1);
@@ -118,12 +113,13 @@ std::vector<Kernel> build_rotations(int order) {
         kernels.push_back(channels);
     }
     kernels.push_back(one);
-    if (const Plan plan = cheapest_plan(order, {1, true}); contracts_every_band(plan)) {
+    if (order - 1 <= kLargestContractionBand) {
+        const Plan contracted(order - 1, {BandMethod::contraction, {}});
         const Kernel polynomial =
             planned("rotate_polynomial",
                     "The cheapest exact rotation by products and sums alone, mirrors included:\n"
                     "no division, no root, no pole.",
-                    order, plan);
+                    order, contracted);
         if (!is_same_work(one, polynomial)) kernels.push_back(polynomial);
     }
     kernels.push_back(halves.prepare);
