@@ -2,9 +2,9 @@
 //
 // Kernels run from their graphs: the operations of the printed code with fused instructions. Three steps a
 // kernel:
-//   excess  what |R R^T - I|_F adds: matrices orthonormal only to 1e-3 and 1e-5, in double, where rounding is
-//           nothing beside that; per band the largest singular value of the error matrix is the worst over
-//           all signals.
+//   excess  what |R R^T - I|_F adds: random matrices orthonormal only to 1e-3 and 1e-5 and those of the noisy
+//           problems, in double, where rounding is nothing beside that; per band the largest singular value
+//           of the error matrix is the worst over all signals.
 //   signals for every other rotation (random and hard ones) the error matrix again, in the type that is
 //           judged; its leading right singular vector is a signal that the kernel turns as badly as any.
 //   bound   the largest error with such signals and with random ones, less the excess, times a margin.
