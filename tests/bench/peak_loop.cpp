@@ -35,8 +35,7 @@ HWY_NOINLINE double run(std::size_t rounds) {
 
 Peak ZONAL_BATCH_ENTRY();
 Peak ZONAL_BATCH_ENTRY() {
-    return {hn::MaxLanes(D()), HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_NEON,
-            run};
+    return {hn::MaxLanes(D()), HWY_TARGET <= HWY_AVX2 || HWY_TARGET == HWY_NEON, run};
 }
 
 }  // namespace zonal::bench

@@ -304,21 +304,28 @@ TYPED_TEST(runtime_batch, mirror_matches_pointwise_oracle) {
 }
 
 TYPED_TEST(runtime_batch, nan_stays_within_its_vector_and_band) {
+    struct Place {
+        std::size_t count, gap, vector;
+    };
     this->on_every_target_and_order([](int order) {
-        for (const std::size_t count : {16, 19})
-            for (const std::size_t bad : {std::size_t{1}, count - 1}) {
-                SCOPED_TRACE(testing::Message() << "order " << order << ", vector " << bad);
-                Batch<TypeParam> batch({.order = order, .layout = {.count = count}, .with_mirrors = true});
-                const std::size_t last_band = static_cast<std::size_t>(order - 1) * (order - 1);
-                batch.in[batch.c.index(bad, 0, last_band)] = std::numeric_limits<TypeParam>::quiet_NaN();
+        const auto last = static_cast<std::size_t>(order - 1);
+        for (const auto& [count, gap, bad] :
+             {Place{16, 0, 1}, Place{16, 1, 15}, Place{19, 0, 1}, Place{19, 0, 18}})
+            for (const std::size_t band : {std::size_t{0}, last}) {
+                SCOPED_TRACE(testing::Message() << "order " << order << ", vector " << bad << " of " << count
+                                                << ", gap " << gap << ", band " << band);
+                Batch<TypeParam> batch({.order = order,
+                                        .layout = {.count = count, .stride = (last + 1) * (last + 1) + gap},
+                                        .with_mirrors = true});
+                batch.in[batch.c.index(bad, 0, band * band)] = std::numeric_limits<TypeParam>::quiet_NaN();
                 batch.rotate();
                 for (std::size_t k = 0; k < count; ++k)
                     if (k != bad) batch.expect_vector_turned(k, 0);
                 const std::vector<TypeParam> f = batch.vector(batch.out, bad, 0);
-                EXPECT_TRUE(
-                    std::all_of(f.begin(), f.begin() + last_band, [](auto v) { return std::isfinite(v); }));
-                EXPECT_TRUE(
-                    std::any_of(f.begin() + last_band, f.end(), [](auto v) { return std::isnan(v); }));
+                const auto begin = f.begin() + band * band, end = f.begin() + (band + 1) * (band + 1);
+                const auto is_finite = [](auto v) { return std::isfinite(v); };
+                EXPECT_TRUE(std::any_of(begin, end, [](auto v) { return std::isnan(v); }));
+                EXPECT_TRUE(std::all_of(f.begin(), begin, is_finite) && std::all_of(end, f.end(), is_finite));
             }
     });
 }

@@ -304,8 +304,9 @@ class Batch {
 
     template <class Flow>
     HWY_INLINE void turn_row(const Turn& turn, const T* in, T* out, std::size_t stride, Flow flow) const {
+        // Odd orders have one column more than whole blocks: band 0, which no rotation changes, is copied.
         if constexpr (kFirst == 0 && kColumns % kBlock<T> == 1) {
-            if (!is_touching_nine<T, kColumns>(stride)) {
+            if (!is_touching_nine<kColumns>(stride)) {
                 turn_columns<1>(turn, in + 1, out + 1, stride, flow);
                 for (std::size_t k = 0; k < kWidth; ++k) out[k * stride] = in[k * stride];
                 return;
@@ -314,7 +315,7 @@ class Batch {
         turn_columns<kFirst>(turn, in, out, stride, flow);
     }
 
-    /// Coefficients from kFrom on; kFrom = 1: what a rotation leaves as it is does not come here.
+    /// Coefficients from kFrom on, which is 0 or 1; band 0 is neither read nor written where it is 1.
     template <std::size_t kFrom, class Flow>
     HWY_INLINE void turn_columns(const Turn& turn, const T* in, T* out, std::size_t stride, Flow flow) const {
         P f[kCoefficients];

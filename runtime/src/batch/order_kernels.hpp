@@ -30,8 +30,8 @@ struct PackKernels;
 ZONAL_FOR_EACH_ORDER(ZONAL_PACK_KERNELS)
 #undef ZONAL_PACK_KERNELS
 
-/// What turns one vector a lane: `rotate_polynomial` where there is one, for packs wait longer for divisions
-/// and roots than its further products take.
+/// The kernel for one vector a lane: `rotate_polynomial` where there is one. On packs its further products
+/// cost less than waiting for the divisions and roots of `rotate`.
 template <int N>
 struct AtOnce {
     static constexpr bool kTakesMirrors = PackKernels<N>::kTakesMirrors;

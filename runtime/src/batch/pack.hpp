@@ -9,6 +9,9 @@
 
 #include <cstddef>
 
+/// AVX-512 and what extends it: Highway's better targets have lower numbers, and those of x86 the lowest.
+#define ZONAL_PACKS_ARE_AVX512 (HWY_TARGET <= HWY_AVX3)
+
 namespace zonal::batch {
 namespace {
 

@@ -5,27 +5,28 @@
 // divisor in common with these: so each lane meets every column once in the nine registers, and all lanes in
 // the same order, only that they begin with different columns. With the columns numbered in that order, lane
 // i of column number p is in register p + shift(i) of the ring of nine. The shift is undone in two steps of
-// three registers each: its remainder of 3 with masks; the rest with permutations of two registers, which
+// three registers each: its remainder modulo 3 with masks; the rest with permutations of two registers, which
 // bring the rows in order as well.
 
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "pack.hpp"
 
 namespace zonal::batch {
 namespace {
 
+template <std::size_t kColumns>
+inline constexpr bool kMayTouchNine = ZONAL_PACKS_ARE_AVX512&& kColumns == 9;
+
 /// Whether kColumns of rows `stride` apart are read and written in this way.
-template <class T, std::size_t kColumns>
-HWY_INLINE constexpr bool is_touching_nine([[maybe_unused]] std::size_t stride) {
-#if HWY_TARGET == HWY_AVX3
-    return kColumns == 9 && stride == 9;
-#else
-    return false;
-#endif
+template <std::size_t kColumns>
+HWY_INLINE constexpr bool is_touching_nine(std::size_t stride) {
+    return kMayTouchNine<kColumns> && stride == 9;
 }
 
-#if HWY_TARGET == HWY_AVX3
+#if ZONAL_PACKS_ARE_AVX512
 
 template <class T>
 struct NineRegisters {
@@ -113,13 +114,6 @@ HWY_INLINE void write_touching_nine(const Pack<T>* columns, T* rows) {
         hn::StoreU(choose_three<T>(at(0), at(1), at(2)), Tag<T>(), rows + r * kLanes<T>);
     }
 }
-
-#else
-
-template <class T>
-HWY_INLINE void read_touching_nine(const T*, Pack<T>*) {}
-template <class T>
-HWY_INLINE void write_touching_nine(const Pack<T>*, T*) {}
 
 #endif
 

@@ -6,7 +6,7 @@
 // leaves in register j column c + j of every row, in the order of the rows. Writing is the reverse, row by
 // row: processors write two blocks at once when both go to one cache line. Columns that are left over are met
 // by a last block that overlaps the one before. What `between` does happens once for every kBlock columns,
-// beside the transpositions.
+// beside the transpositions. Nine columns of rows that touch have a way of their own (touching_nine.hpp).
 
 #include "pack.hpp"
 #include "touching_nine.hpp"
@@ -44,7 +44,7 @@ HWY_INLINE hn::Vec<D> load_blocks(D d, const T* p, std::size_t step) {
         const hn::Half<D> half;
         return hn::Combine(d, hn::LoadU(half, p + step), hn::LoadU(half, p));
     } else {
-#if HWY_TARGET == HWY_AVX3  // one masked load each; halves would take a shuffle more
+#if ZONAL_PACKS_ARE_AVX512  // one masked load each; halves would take a shuffle more
         const auto block = [&](std::size_t b) {
             return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + b * step));
         };
@@ -67,7 +67,7 @@ HWY_INLINE void store_one_block(D d, hn::Vec<D> values, T* p) {
         const hn::Half<D> half;
         hn::StoreU(kIndex == 0 ? hn::LowerHalf(half, values) : hn::UpperHalf(half, values), half, p);
     } else {
-#if HWY_TARGET == HWY_AVX3  // typed as the values are: g++ then extracts while storing, without a shuffle
+#if ZONAL_PACKS_ARE_AVX512  // typed as the values are: g++ then extracts while storing, without a shuffle
         if constexpr (sizeof(T) == 4)
             _mm_storeu_ps(p, _mm512_extractf32x4_ps(values.raw, kIndex));
         else
@@ -131,9 +131,11 @@ template <std::size_t kColumns, class T, class Between = Nothing>
 HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns,
                              const Between& between = {}) {
     constexpr std::size_t kWhole = kColumns - kColumns % kBlock<T>;
-    if (is_touching_nine<T, kColumns>(stride)) {
-        for (std::size_t c = 0; c < kWhole; c += kBlock<T>) between();
-        return read_touching_nine(rows, columns);
+    if constexpr (kMayTouchNine<kColumns>) {
+        if (is_touching_nine<kColumns>(stride)) {
+            for (std::size_t c = 0; c < kWhole; c += kBlock<T>) between();
+            return read_touching_nine(rows, columns);
+        }
     }
     Lanes<T> block[kBlock<T>];
     for (std::size_t c = 0; c < kWhole; c += kBlock<T>) {
@@ -167,9 +169,11 @@ template <std::size_t kColumns, class T, class Between = Nothing>
 HWY_INLINE void write_columns(const Pack<T>* columns, T* rows, std::size_t stride,
                               const Between& between = {}) {
     constexpr std::size_t kBlocks = kColumns / kBlock<T>;
-    if (is_touching_nine<T, kColumns>(stride)) {
-        for (std::size_t b = 0; b < kBlocks; ++b) between();
-        return write_touching_nine(columns, rows);
+    if constexpr (kMayTouchNine<kColumns>) {
+        if (is_touching_nine<kColumns>(stride)) {
+            for (std::size_t b = 0; b < kBlocks; ++b) between();
+            return write_touching_nine(columns, rows);
+        }
     }
     constexpr std::size_t kWhole = kBlocks * kBlock<T>;
     constexpr std::size_t kRest = kBlocks == 0 ? 0 : (kBlocks - 1) % kGroup<T> + 1;  ///< of the last group
