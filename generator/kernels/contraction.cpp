@@ -79,16 +79,20 @@ void build_band_3(graph::Kernel& kernel, const Matrix3& rows) {
     const auto f = [&](int m) { return kernel.input(1, 12 + m); };
     const Number n0 = sqrt(Number(2) / 5), n1 = sqrt(Number(3) / 5), n2 = sqrt(Number(6));
 
-    // Seven entries are all of T; the others follow from T_xxi + T_yyi + T_zzi = 0.
+    // Seven entries are all of T; the others follow from T_xxi + T_yyi + T_zzi = 0. One product a line:
+    // compilers differ in the order of two.
     const Value zzz = (2 * n0) * f(0);
     const Value zzx = (4 * n1 / 3) * f(1);
     const Value zzy = (4 * n1 / 3) * f(-1);
     const Value xyz = (n2 / 3) * f(-2);
-    const Value zxx = (n2 / 3) * f(2) + Number(-0.5) * zzz;
+    const Value zxx_trace = Number(-0.5) * zzz;
+    const Value zxx = (n2 / 3) * f(2) + zxx_trace;
     const Value zyy = -(zxx + zzz);
-    const Value xxx = f(3) + Number(-0.75) * zzx;
+    const Value xxx_trace = Number(-0.75) * zzx;
+    const Value xxx = f(3) + xxx_trace;
     const Value xyy = -(xxx + zzx);
-    const Value xxy = f(-3) + Number(-0.25) * zzy;
+    const Value xxy_trace = Number(-0.25) * zzy;
+    const Value xxy = f(-3) + xxy_trace;
     const Value yyy = -(xxy + zzy);
 
     // Symmetric matrices T(row): xx, xy, xz, yy, yz; zz by the trace.
