@@ -18,7 +18,7 @@ namespace zonal::batch {
 namespace {
 
 template <std::size_t kColumns>
-inline constexpr bool kMayTouchNine = ZONAL_PACKS_ARE_AVX512&& kColumns == 9;
+inline constexpr bool kMayTouchNine = kColumns == 9 && ZONAL_PACKS_ARE_AVX512;
 
 /// Whether kColumns of rows `stride` apart are read and written in this way.
 template <std::size_t kColumns>
@@ -69,7 +69,7 @@ template <class T>
 inline constexpr NineRegisters<T> kNine;
 
 /// In every lane the register that the remainder of its shift tells. Stores with masks instead would be
-/// faster at addresses that are whole lines, and much slower at others.
+/// faster at multiples of 64 bytes, and much slower at other addresses.
 template <class T>
 HWY_INLINE Lanes<T> choose_three(Lanes<T> a, Lanes<T> b, Lanes<T> c) {
     using Mask = hn::Mask<Tag<T>>;
