@@ -10,12 +10,14 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "exact/angles.hpp"
 #include "kernels/registry.hpp"
 #include "lobe_table.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
+#include "search/off_grid_search.hpp"
 #include "search/orbit_search.hpp"
 #include "search/progress_text.hpp"
 #include "search/search.hpp"
@@ -54,6 +56,7 @@ struct Options {
     std::string archive;
     bool is_plain = false;
     bool stays_on_grid = false;
+    bool walks = false;
     int islands = 4;
     std::vector<int> zero_bands;
     std::vector<int> rings;
@@ -76,17 +79,23 @@ struct Options {
     }
 };
 
-/// The table that `--resume` names, as lobes to start from.
-search::AngledSet read_start(const Options& options) {
+/// The table that `--resume` names.
+std::optional<LobeTable> read_start(const Options& options) {
+    if (options.resume.empty()) return std::nullopt;
+    return read_lobe_table(options.resume, options.use());
+}
+
+search::AngledSet angled_lobes(const LobeTable& table) {
     search::AngledSet lobes;
-    for (const auto& [theta, phi] : read_lobe_table(options.resume, options.use()).angles) {
+    for (const auto& [theta, phi] : table.angles) {
         lobes.push_back(
             {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
     }
     return lobes;
 }
 
-search::SearchSettings settings_of(const Options& options, const search::Problem& problem) {
+search::SearchSettings settings_of(const Options& options, const search::Problem& problem,
+                                   const std::optional<LobeTable>& start) {
     search::SearchSettings settings;
     settings.seed = options.seed;
     settings.generations = options.generations;
@@ -104,7 +113,7 @@ search::SearchSettings settings_of(const Options& options, const search::Problem
     genetic.elite = options.elite;
     genetic.crossover_fraction = options.crossover;
     genetic.mutation_rate = options.mutation;
-    if (!options.resume.empty()) settings.start = read_start(options);
+    if (start) settings.start = angled_lobes(*start);
     return settings;
 }
 
@@ -122,6 +131,7 @@ std::string canonical_command(const Options& options, int generations) {
     if (options.mirrors > 0) command += fmt::format(" --mirrors {}", options.mirrors);
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
+    if (options.walks) command += " --walk";
     if (!options.resume.empty()) command += " --resume " + table;
     const auto add_list = [&](const char* name, const std::vector<int>& values) {
         if (!values.empty()) command += fmt::format(" {} {}", name, fmt::join(values, " "));
@@ -142,11 +152,14 @@ std::string canonical_command(const Options& options, int generations) {
     return command + " --out " + table;
 }
 
-LobeTable table_of(const Options& options, const search::Solution& solution, int generations) {
+/// A table that was resumed keeps the commands that made it before the one that made it better.
+LobeTable table_of(const Options& options, const std::optional<LobeTable>& start,
+                   const search::Solution& solution, int generations) {
     LobeTable table;
     table.use = options.use();
     table.seed = options.seed;
-    table.command = canonical_command(options, generations);
+    if (start) table.command = start->command + " && ";
+    table.command += canonical_command(options, generations);
     const search::AngledSet lobes = search::in_reading_order(solution.lobes);
     table.directions = search::directions_of(lobes);
     for (const search::AngledLobe& lobe : lobes) {
@@ -186,6 +199,8 @@ int emitted_instructions(const exact::BandFactorization& band) {
 search::SearchResult find_lobes(const Options& options, const search::Problem& problem,
                                 const search::SearchSettings& settings,
                                 const search::SearchObserver& observer) {
+    if (options.walks)
+        return search::search_off_grid(problem, settings, options.moves, stop_requested, observer);
     if (options.mirrors == 0) return search::search_lobes(problem, settings, stop_requested, observer);
     try {
         return search::search_orbits(options.band, settings, {options.mirrors, options.moves},
@@ -203,18 +218,21 @@ void run(const Options& options) {
     check_is_writable("--out", options.out);
     if (!options.archive.empty()) check_is_writable("--archive", options.archive);
     const search::Problem problem = options.problem();
-    const search::SearchSettings settings = settings_of(options, problem);
+    const std::optional<LobeTable> start = read_start(options);
+    const search::SearchSettings settings = settings_of(options, problem, start);
 
     const bool is_watched = isatty(STDERR_FILENO) != 0;
     double saved_at = -kSecondsBetweenSaves;
+    int found_in = 0;  // the generation of the best; 0 is the start
     search::SearchObserver observer;
     observer.on_generation = [&](const search::Progress& progress) {
         if (is_watched) fmt::print(stderr, "\r\033[K{}", search::progress_text(progress));
     };
     observer.on_better = [&](const search::Solution& solution, const search::Progress& progress) {
+        found_in = progress.generation;
         const bool is_worth_saving = solution.score.is_allowed(options.objective);
         if (!is_worth_saving || progress.seconds < saved_at + kSecondsBetweenSaves) return;
-        write_lobe_table(options.out, table_of(options, solution, progress.generation));
+        write_lobe_table(options.out, table_of(options, start, solution, progress.generation));
         saved_at = progress.seconds;
     };
 
@@ -232,7 +250,8 @@ void run(const Options& options) {
                                     options.use().field, options.use().value, options.objective.condition_cap,
                                     result.progress.generation, next_step));
     }
-    write_lobe_table(options.out, table_of(options, result.best, result.progress.generation));
+    write_lobe_table(options.out,
+                     start && found_in == 0 ? *start : table_of(options, start, result.best, found_in));
     if (!options.archive.empty()) write_file_atomically(options.archive, archive_text(options, result));
     fmt::print("{}\n", options.out);
 }
@@ -256,7 +275,8 @@ void add_search_command(CLI::App& app) {
                      "to run; with neither these nor --seconds: until none improves for --stall")
         ->check(CLI::PositiveNumber);
     command->add_option("--seconds", o.seconds, "after which to stop")->check(CLI::PositiveNumber);
-    command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
+    CLI::Option* resume =
+        command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
     command->add_flag("--plain", o.is_plain,
                       "the paper's genetic algorithm, with no local steps, on the grid");
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
@@ -280,7 +300,11 @@ void add_search_command(CLI::App& app) {
                 "instructions of their emitted product")
             ->check(CLI::Range(1, search::kMostMirrors));
     mirrors->needs(band);
-    command->add_option("--islands", o.islands, "populations that breed apart")
+    CLI::Option* walk = command->add_flag(
+        "--walk", o.walks,
+        "seek lobes near those of --resume, anywhere on the sphere: give up some zeros, find others");
+    walk->needs(resume);
+    command->add_option("--islands", o.islands, "populations that breed apart, or walkers")
         ->capture_default_str()
         ->check(CLI::Range(1, 1024));
     command->add_option("--population", o.population, "of an island (default: 6, or 500 with --plain)")
@@ -294,7 +318,7 @@ void add_search_command(CLI::App& app) {
     command
         ->add_option("--local-moves", o.moves,
                      "swaps tried on every child (default: 400 times the square of the lobes; 100 times with "
-                     "--mirrors)")
+                     "--mirrors), or moves of a walker in a generation")
         ->check(CLI::PositiveNumber);
     command->add_option("--crossover", o.crossover, "fraction of children with two parents")
         ->capture_default_str()
@@ -316,6 +340,9 @@ void add_search_command(CLI::App& app) {
     for (const char* name : {"--plain", "--on-grid", "--archive", "--population", "--elite", "--crossover",
                              "--mutation", "--multiplication-weight"})
         mirrors->excludes(command->get_option(name));
+    for (const char* name : {"--plain", "--on-grid", "--mirrors", "--zero-bands", "--rings", "--population",
+                             "--elite", "--crossover", "--mutation"})
+        walk->excludes(command->get_option(name));
     command->callback([options] { run(*options); });
 }
 

@@ -73,6 +73,26 @@ exact::Vector<double> AngleModel::residual_gradient(const Relation& relation) co
     return gradient;
 }
 
+exact::Matrix<double> AngleModel::jacobian(const Pattern& pattern) const {
+    // Entry (d, column): g^T Â of lobe d, as in `residual_gradient` but for all columns at once.
+    std::vector<exact::Matrix<double>> slopes_by_theta, slopes_by_phi;
+    for (const Band& band : bands_) {
+        slopes_by_theta.push_back(band.by_theta * band.a_hat);
+        slopes_by_phi.push_back(band.by_phi * band.a_hat);
+    }
+    exact::Matrix<double> jacobian = exact::Matrix<double>::Zero(pattern.size(), 2 * problem_.lobe_count);
+    for (std::size_t r = 0; r < pattern.size(); ++r) {
+        const auto [band_index, row, column, other_row, sign] = pattern[r];
+        const exact::Matrix<double>& a_hat = bands_[band_index].a_hat;
+        for (int d = 0; d < a_hat.cols(); ++d) {
+            const double weight = (other_row < 0 ? 0 : sign * a_hat(other_row, d)) - a_hat(row, d);
+            jacobian(r, 2 * d) = weight * slopes_by_theta[band_index](d, column);
+            jacobian(r, 2 * d + 1) = weight * slopes_by_phi[band_index](d, column);
+        }
+    }
+    return jacobian;
+}
+
 double AngleModel::log_norm(double weight, double* gradient) const {
     double sum = 0;
     for (const Band& band : bands_) {

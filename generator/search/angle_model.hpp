@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "exact/real.hpp"
@@ -7,6 +8,9 @@
 #include "search/problem.hpp"
 
 namespace zonal::search {
+
+/// A lobe of this theta is at the pole, where neither angle is a coordinate.
+inline bool is_at_pole(double theta) { return std::abs(theta) < 1e-9; }
 
 /// The inverses of all bands as smooth functions of the lobes' angles (theta_0, phi_0, theta_1, phi_1, …),
 /// with their derivatives, in double. With dY = e_d g^T, dÂ = -Â dY Â = -(column d of Â) (g^T Â).
@@ -25,6 +29,9 @@ class AngleModel {
 
     /// Derivative of a residual by every angle.
     exact::Vector<double> residual_gradient(const Relation& relation) const;
+
+    /// The derivatives of all residuals of a pattern: a row for each relation, a column for each angle.
+    exact::Matrix<double> jacobian(const Pattern& pattern) const;
 
     /// Sum over the bands of log2(||Â_l||_F); adds `weight` times its gradient to `gradient`.
     double log_norm(double weight, double* gradient) const;

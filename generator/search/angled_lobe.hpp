@@ -37,6 +37,16 @@ inline std::vector<exact::Direction<exact::Real>> directions_of(const AngledSet&
     return directions;
 }
 
+/// theta_0, phi_0, theta_1, phi_1, …
+inline std::vector<double> angles_in_double(const AngledSet& set) {
+    std::vector<double> angles;
+    for (const AngledLobe& lobe : set) {
+        angles.push_back(static_cast<double>(lobe.theta.value));
+        angles.push_back(static_cast<double>(lobe.phi.value));
+    }
+    return angles;
+}
+
 /// Band l needs its 2l+1 lobes first, in any order. So lobes 0 … 2, 3 and 4, 5 and 6, … may be sorted among
 /// themselves, from the pole down.
 inline AngledSet in_reading_order(AngledSet set) {

@@ -3,6 +3,10 @@
 
 #include "search/polish.hpp"
 
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+
 #include "exact/spherical_harmonics.hpp"
 #include "search/angle_model.hpp"
 
@@ -38,13 +42,29 @@ Real largest_of(const std::vector<Real>& residuals) {
     return largest;
 }
 
-std::vector<double> angles_in_double(const AngledSet& lobes) {
-    std::vector<double> angles;
-    for (const AngledLobe& lobe : lobes) {
-        angles.push_back(static_cast<double>(lobe.theta.value));
-        angles.push_back(static_cast<double>(lobe.phi.value));
+/// An angle that moved less than this has not moved.
+constexpr double kStill = 1e-6;
+
+/// theta in [0, pi/2], phi in [0, 2 pi), for the lobe or its antipode.
+AngledLobe wrapped(AngledLobe lobe) {
+    const Real pi = boost::math::constants::pi<Real>();
+    const auto set = [](Angle& angle, const Real& value) {
+        if (value == angle.value) return;
+        angle.value = value;
+        angle.text = exact::decimal_text(value);
+    };
+    const Real turns = floor(lobe.theta.value / (2 * pi));
+    set(lobe.theta, lobe.theta.value - turns * 2 * pi);
+    if (lobe.theta.value > pi) {
+        set(lobe.theta, 2 * pi - lobe.theta.value);
+        set(lobe.phi, lobe.phi.value + pi);
     }
-    return angles;
+    if (lobe.theta.value > pi / 2) {
+        set(lobe.theta, pi - lobe.theta.value);
+        set(lobe.phi, lobe.phi.value + pi);
+    }
+    set(lobe.phi, lobe.phi.value - floor(lobe.phi.value / (2 * pi)) * 2 * pi);
+    return lobe;
 }
 
 }  // namespace
@@ -67,13 +87,9 @@ std::optional<AngledSet> polish(const Problem& problem, const AngledSet& lobes, 
         if (largest_of(residuals) < kPolished) return polished;
         if (free_angles.empty() || !model.evaluate(angles_in_double(polished))) return std::nullopt;
 
-        exact::Matrix<double> jacobian(pattern.size(), free_angles.size());
+        const exact::Matrix<double> jacobian = model.jacobian(pattern)(Eigen::all, free_angles);
         exact::Vector<double> right(pattern.size());
-        for (std::size_t r = 0; r < pattern.size(); ++r) {
-            right(r) = static_cast<double>(residuals[r]);
-            const exact::Vector<double> gradient = model.residual_gradient(pattern[r]);
-            for (std::size_t i = 0; i < free_angles.size(); ++i) jacobian(r, i) = gradient(free_angles[i]);
-        }
+        for (std::size_t r = 0; r < pattern.size(); ++r) right(r) = static_cast<double>(residuals[r]);
         Eigen::CompleteOrthogonalDecomposition<exact::Matrix<double>> decomposition;
         decomposition.setThreshold(1e-9);
         decomposition.compute(jacobian);
@@ -87,6 +103,28 @@ std::optional<AngledSet> polish(const Problem& problem, const AngledSet& lobes, 
         }
     }
     return std::nullopt;
+}
+
+std::optional<AngledSet> polish_moved(const Problem& problem, const AngledSet& lobes,
+                                      const std::vector<double>& angles, const Pattern& pattern) {
+    const std::vector<double> angles_before = angles_in_double(lobes);
+    AngledSet moved = lobes;
+    std::vector<bool> is_free(angles.size(), false);
+    for (std::size_t d = 0; d < moved.size(); ++d) {
+        if (is_at_pole(angles[2 * d])) {
+            if (!is_at_pole(angles_before[2 * d])) moved[d] = {{0, "0"}, {0, "0"}};
+            continue;  // neither angle is a coordinate there
+        }
+        for (const std::size_t i : {2 * d, 2 * d + 1}) {
+            if (std::abs(angles[i] - angles_before[i]) < kStill) continue;
+            is_free[i] = true;
+            Angle& angle = i % 2 == 0 ? moved[d].theta : moved[d].phi;
+            angle = {angles[i], exact::decimal_text(angles[i])};
+        }
+    }
+    auto polished = polish(problem, moved, pattern, is_free);
+    if (polished) std::ranges::transform(*polished, polished->begin(), wrapped);
+    return polished;
 }
 
 }  // namespace zonal::search

@@ -15,6 +15,11 @@ namespace zonal::search {
 std::optional<AngledSet> polish(const Problem& problem, const AngledSet& lobes, const Pattern& pattern,
                                 const std::vector<bool>& is_free);
 
+/// The lobes with their angles moved to `angles` (theta_0, phi_0, theta_1, …, in double), polished until the
+/// pattern holds, with theta in [0, pi/2] and phi in [0, 2 pi). Angles that did not move keep value and text.
+std::optional<AngledSet> polish_moved(const Problem& problem, const AngledSet& lobes,
+                                      const std::vector<double>& angles, const Pattern& pattern);
+
 /// Largest residual of the pattern at 50 digits.
 exact::Real largest_residual(const Problem& problem, const AngledSet& lobes, const Pattern& pattern);
 

@@ -8,7 +8,6 @@
 #include "search/refine.hpp"
 
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <nlopt.hpp>
 #include <numeric>
@@ -22,36 +21,11 @@ namespace {
 
 using exact::Real;
 
-/// An angle that moved less than this has not moved.
-constexpr double kStill = 1e-6;
-
 /// How many of the smallest entries are tried as further zeros.
 constexpr int kMostTargets = 24;
 
 /// A gain of cost that is worth leaving closed forms for.
 constexpr double kWorthwhile = 0.02;
-
-/// theta in [0, pi/2], phi in [0, 2 pi), for the lobe or its antipode.
-AngledLobe wrapped(AngledLobe lobe) {
-    const Real pi = boost::math::constants::pi<Real>();
-    const auto set = [](Angle& angle, const Real& value) {
-        if (value == angle.value) return;
-        angle.value = value;
-        angle.text = exact::decimal_text(value);
-    };
-    const Real turns = floor(lobe.theta.value / (2 * pi));
-    set(lobe.theta, lobe.theta.value - turns * 2 * pi);
-    if (lobe.theta.value > pi) {
-        set(lobe.theta, 2 * pi - lobe.theta.value);
-        set(lobe.phi, lobe.phi.value + pi);
-    }
-    if (lobe.theta.value > pi / 2) {
-        set(lobe.theta, pi - lobe.theta.value);
-        set(lobe.phi, lobe.phi.value + pi);
-    }
-    set(lobe.phi, lobe.phi.value - floor(lobe.phi.value / (2 * pi)) * 2 * pi);
-    return lobe;
-}
 
 class Refiner {
   public:
@@ -89,23 +63,17 @@ class Refiner {
   private:
     void adopt(const Solution& solution) {
         best_ = solution;
-        angles_.clear();
-        for (const AngledLobe& lobe : solution.lobes) {
-            angles_.push_back(static_cast<double>(lobe.theta.value));
-            angles_.push_back(static_cast<double>(lobe.phi.value));
-        }
+        angles_ = angles_in_double(solution.lobes);
         if (model_.evaluate(angles_)) a_hats_ = model_.a_hats();
     }
 
     /// Neither angle of a lobe at the pole is a coordinate there.
-    bool is_movable(int angle) const { return angles_[angle - angle % 2] > 1e-9; }
+    bool is_movable(int angle) const { return !is_at_pole(angles_[angle - angle % 2]); }
 
     /// Whether angles can move, to first order, with the pattern unbroken.
     bool has_freedom(const Pattern& pattern) {
         model_.evaluate(angles_);
-        exact::Matrix<double> jacobian(pattern.size(), angles_.size());
-        for (std::size_t r = 0; r < pattern.size(); ++r)
-            jacobian.row(r) = model_.residual_gradient(pattern[r]);
+        exact::Matrix<double> jacobian = model_.jacobian(pattern);
         int movable = 0;
         for (int i = 0; i < static_cast<int>(angles_.size()); ++i) {
             movable += is_movable(i);
@@ -187,18 +155,8 @@ class Refiner {
 
     /// Polishes, scores at 50 digits, and keeps what lowers the cost.
     bool accept(const std::vector<double>& angles, const Pattern& pattern) {
-        AngledSet lobes = best_.lobes;
-        std::vector<bool> is_free(angles.size(), false);
-        for (int i = 0; i < static_cast<int>(angles.size()); ++i) {
-            if (!is_movable(i) || std::abs(angles[i] - angles_[i]) < kStill) continue;
-            is_free[i] = true;
-            Angle& angle = i % 2 == 0 ? lobes[i / 2].theta : lobes[i / 2].phi;
-            angle.value = angles[i];
-            angle.text = exact::decimal_text(angle.value);
-        }
-        auto polished = polish(problem_, lobes, pattern, is_free);
+        const auto polished = polish_moved(problem_, best_.lobes, angles, pattern);
         if (!polished) return false;
-        std::ranges::transform(*polished, polished->begin(), wrapped);
         const Solution refined = confirm(problem_, *polished);
         const double gain = best_.score.cost(objective_) - refined.score.cost(objective_);
         if (!(gain > kWorthwhile)) return false;

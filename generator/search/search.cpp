@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "search/front.hpp"
+
 namespace zonal::search {
 namespace {
 
@@ -20,25 +22,6 @@ namespace {
 constexpr double kWorthRefining = 12;
 constexpr int kManyLobes = 21;
 constexpr int kRefinedInAGeneration = 2;
-
-bool is_better(const Solution& a, const Solution& b, const Objective& objective) {
-    const double cost_a = a.score.cost(objective), cost_b = b.score.cost(objective);
-    if (std::isinf(cost_a)) return false;
-    if (std::isinf(cost_b) || std::abs(cost_a - cost_b) > 1e-6) return cost_a < cost_b;
-    return turning_cost(directions_of(a.lobes)) < turning_cost(directions_of(b.lobes));
-}
-
-bool is_dominated(const Score& a, const Score& b) {
-    return b.nonzeros <= a.nonzeros && b.multiplications <= a.multiplications &&
-           b.condition <= a.condition * (1 + 1e-9);
-}
-
-void add_to_front(std::vector<Solution>& front, const Solution& solution) {
-    const auto beats = [&](const Solution& other) { return is_dominated(solution.score, other.score); };
-    if (std::ranges::any_of(front, beats)) return;
-    std::erase_if(front, [&](const Solution& other) { return is_dominated(other.score, solution.score); });
-    front.push_back(solution);
-}
 
 class Island {
   public:
@@ -156,7 +139,7 @@ SearchResult search_lobes(const Problem& problem, const SearchSettings& settings
     result.progress = course.progress;
     for (const Island& island : islands)
         for (const Solution& solution : island.front()) add_to_front(result.front, solution);
-    std::ranges::stable_sort(result.front, {}, [](const Solution& s) { return s.score.nonzeros; });
+    sort_front(result.front);
     return result;
 }
 

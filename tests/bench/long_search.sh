@@ -1,50 +1,58 @@
 #!/usr/bin/env bash
-# Searches of any length for the bands and orders whose goal is not reached yet, in turn: the seed, the weights and the
-# rings change with every round; the best table of each is kept, and those of orders are taken up again in every third
-# round. Band 10 and order 10 are given SECONDS, the others a time in proportion to their number.
-# A line a search: what it found, its options, the best so far and the goal. Stop with Ctrl-C.
-# Usage: nice bash tests/bench/long_search.sh FOLDER [SECONDS [ZONAL_GEN [FIRST_SEED]]] | tee -a tests/bench/long_search.log
+# Searches of any length for sparse lobes, band after band and order after order, in rounds. An even round begins
+# afresh: a genetic search with another seed, weights and rings, then a walk off the grid from what it found, unless that
+# is hopeless. An odd round walks on from the best. The best table of each is kept, at first the committed one.
+# Band 10 and order 10 are given SECONDS a search, the others a time in proportion to their number.
+# A line a search: what it found, its options, the best so far and the goal in nonzeros. Stop with Ctrl-C.
+# Usage: nice bash tests/bench/long_search.sh FOLDER [SECONDS [ZONAL_GEN [FIRST_ROUND]]] | tee -a tests/bench/long_search.log
+# ITEMS="band07:92 order10:680" seeks these alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 best=${1:?the folder for the best tables}
-seconds=${2:-120}
+seconds=${2:-60}
 gen=${3:-build/release/bin/zonal-gen}
+items=${ITEMS:-order07:218 order08:334 order09:490 order10:680 band07:92 band05:46 order06:130 order05:66 band08:119
+  band09:166 band10:198 band06:65 band11:264 band12:287 order11 band13:379 order12 band14:437 order13 band15:499 order14
+  band16:566 order15 band17:637 order16 band18:711 order17 order18 order19 order20}
 mkdir -p "$best"
 
-nonzeros_of() { sed -n 's/.*: \([0-9]*\) nonzeros.*/\1/p' <<<"$1"; }
+nonzeros_of() { sed -n 's/^  "nonzeros": \([0-9]*\).*/\1/p' "$1"; }
 
-search() { # OPTION NUMBER GOAL_IN_NONZEROS OPTIONS...: keeps the table if it has fewer nonzeros
-  local use=$1 number=$2 goal=$3 found nonzeros known
-  shift 3
-  local table=$best/${use#--}$number.json record=$best/${use#--}$number.nonzeros
-  found=$("$gen" search "$use" "$number" --seconds $((seconds * number / 10 + 1)) "$@" --out "$best/new.json" 2>&1 >"$best/path") || {
-    printf '%s %d: nothing [%s]\n' "${use#--}" "$number" "$*"
-    return
-  }
-  nonzeros=$(nonzeros_of "$found")
-  known=$(cat "$record" 2>/dev/null || echo 1000000)
-  if [ "$nonzeros" -lt "$known" ]; then
-    mv "$best/new.json" "$table"
-    echo "$nonzeros" >"$record"
-    known=$nonzeros
+search() { # OPTIONS...: leaves its table in $best/found.json and says what it found
+  local found least
+  if found=$("$gen" search "$use" "$number" "$@" --seed "$round" --seconds "$time" --out "$best/found.json" 2>&1 >"$best/path"); then
+    least=$(printf '%s\n' "$(nonzeros_of "$best/found.json")" "$(nonzeros_of "$table")" | sort -n | head -1)
+    echo "${use#--} $number: $found [${*//$best\//} --seed $round] best $least, goal $goal"
+  else
+    echo "${use#--} $number: nothing [$* --seed $round]"
+    return 1
   fi
-  printf '%s %d: %s [%s] best %d, goal %d\n' "${use#--}" "$number" "$found" "$*" "$known" "$goal"
 }
 
-weights=("--multiplication-weight 0.02 --condition-weight 0.1" "" "--multiplication-weight 0 --condition-weight 0.5")
-odd_rings=("" "--rings 4 6 12" "--rings 6 8" "--rings 3 6 9" "--rings 8 10 12")
-for ((seed = ${4:-1};; ++seed)); do
-  some=${weights[$((seed % 3))]}
-  rings=${odd_rings[$((seed % 5))]}
-  for goal in 5:46 7:92 15:499 17:637; do
-    search --band "${goal%:*}" "${goal#*:}" --seed "$seed" $some $rings $([ "${goal%:*}" -gt 10 ] && echo --on-grid)
-  done
-  for goal in 8:119 12:287; do
-    search --band "${goal%:*}" "${goal#*:}" --seed "$seed" $some $([ "${goal%:*}" -gt 10 ] && echo --on-grid)
-  done
-  for goal in 5:66 6:130 7:218 8:334 9:490 10:680; do
-    again=$best/order${goal%:*}.json
-    [ $((seed % 3)) -eq 0 ] && [ -e "$again" ] && again="--resume $again" || again=
-    search --order "${goal%:*}" "${goal#*:}" --seed "$seed" $some $again
+weights=("--multiplication-weight 0.02 --condition-weight 0.1" "--multiplication-weight 0 --condition-weight 0.3" "")
+rings=("" "--rings 4 6 12" "--rings 6 8" "--rings 3 6 9" "--rings 8 10 12")
+for ((round = ${4:-1};; ++round)); do
+  for item in $items; do
+    name=${item%:*} goal=-
+    [[ $item == *:* ]] && goal=${item#*:}
+    use=--${name%%[0-9]*} number=$((10#${name#"${name%%[0-9]*}"}))
+    time=$((seconds * number / 10 + 5))
+    table=$best/$name.json
+    [ -e "$table" ] || cp "generator/tables/$name.json" "$table"
+    some=${weights[$((round % 3))]}
+    start=$table
+    if [ $((round % 2)) -eq 0 ]; then
+      fresh=$some
+      [ "$use" = --band ] && [ $((number % 2)) -eq 1 ] && fresh+=" ${rings[$((round / 2 % 5))]}"
+      [ "$number" -gt 10 ] && fresh+=" --on-grid"
+      search $fresh || continue
+      start=$best/fresh.json
+      mv "$best/found.json" "$start"
+      [ $(($(nonzeros_of "$start") * 100)) -gt $(($(nonzeros_of "$table") * 115)) ] && continue
+    fi
+    search --walk --resume "$start" $some || continue
+    more=$(($(nonzeros_of "$best/found.json") - $(nonzeros_of "$table")))
+    # At the same nonzeros the fewer multiplications, which the first weights see.
+    if [ $more -lt 0 ] || { [ $more -eq 0 ] && [ $((round % 3)) -eq 0 ]; }; then mv "$best/found.json" "$table"; fi
   done
 done

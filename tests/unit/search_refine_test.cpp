@@ -49,6 +49,9 @@ TEST(AngleModel, gradients_agree_with_differences) {
     ASSERT_TRUE(model.evaluate(angles));
     const auto zero_gradient = model.residual_gradient(zero);
     const auto equality_gradient = model.residual_gradient(equality);
+    const exact::Matrix<double> jacobian = model.jacobian({zero, equality});
+    EXPECT_LT((jacobian.row(0).transpose() - zero_gradient).norm(), 1e-12 * zero_gradient.norm());
+    EXPECT_LT((jacobian.row(1).transpose() - equality_gradient).norm(), 1e-12 * equality_gradient.norm());
     exact::Vector<double> norm_gradient = exact::Vector<double>::Zero(14);
     model.log_norm(1, norm_gradient.data());
 
