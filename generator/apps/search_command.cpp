@@ -117,9 +117,17 @@ search::SearchSettings settings_of(const Options& options, const search::Problem
     return settings;
 }
 
-/// The command that repeats a search of so many generations, with every option that is not the default. Paths
-/// are those of the repository, whatever was typed.
-std::string canonical_command(const Options& options, int generations) {
+/// Where the commands of a table leave it.
+std::string path_in(const std::string& commands, const std::string& otherwise) {
+    const std::string option = " --out ";
+    const auto last = commands.rfind(option);
+    return last == std::string::npos ? otherwise : commands.substr(last + option.size());
+}
+
+/// The commands that repeat a search: those that made its start, and its own of so many generations with
+/// every option that is not the default. Paths are those of the repository, whatever was typed.
+std::string canonical_command(const Options& options, const std::optional<LobeTable>& start,
+                              int generations) {
     const Options standard;
     const LobeUse use = options.use();
     std::string command = fmt::format("zonal-gen search --{} {} --seed {} --generations {}", use.field,
@@ -132,7 +140,7 @@ std::string canonical_command(const Options& options, int generations) {
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
     if (options.walks) command += " --walk";
-    if (!options.resume.empty()) command += " --resume " + table;
+    if (start) command = start->command + " && " + command + " --resume " + path_in(start->command, table);
     const auto add_list = [&](const char* name, const std::vector<int>& values) {
         if (!values.empty()) command += fmt::format(" {} {}", name, fmt::join(values, " "));
     };
@@ -152,14 +160,12 @@ std::string canonical_command(const Options& options, int generations) {
     return command + " --out " + table;
 }
 
-/// A table that was resumed keeps the commands that made it before the one that made it better.
 LobeTable table_of(const Options& options, const std::optional<LobeTable>& start,
                    const search::Solution& solution, int generations) {
     LobeTable table;
     table.use = options.use();
     table.seed = options.seed;
-    if (start) table.command = start->command + " && ";
-    table.command += canonical_command(options, generations);
+    table.command = canonical_command(options, start, generations);
     const search::AngledSet lobes = search::in_reading_order(solution.lobes);
     table.directions = search::directions_of(lobes);
     for (const search::AngledLobe& lobe : lobes) {
@@ -175,7 +181,8 @@ void check_use(const Options& options) {
         throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
 }
 
-std::string archive_text(const Options& options, const search::SearchResult& result) {
+std::string archive_text(const Options& options, const std::optional<LobeTable>& start,
+                         const search::SearchResult& result) {
     nlohmann::ordered_json sets = nlohmann::ordered_json::array();
     for (const search::Solution& solution : result.front) {
         nlohmann::ordered_json angles = nlohmann::ordered_json::array();
@@ -186,9 +193,10 @@ std::string archive_text(const Options& options, const search::SearchResult& res
                         {"cond", solution.score.condition},
                         {"angles", angles}});
     }
-    const nlohmann::ordered_json archive{{options.use().field, options.use().value},
-                                         {"command", canonical_command(options, result.progress.generation)},
-                                         {"sets", sets}};
+    const nlohmann::ordered_json archive{
+        {options.use().field, options.use().value},
+        {"command", canonical_command(options, start, result.progress.generation)},
+        {"sets", sets}};
     return archive.dump(2) + "\n";
 }
 
@@ -252,7 +260,8 @@ void run(const Options& options) {
     }
     write_lobe_table(options.out,
                      start && found_in == 0 ? *start : table_of(options, start, result.best, found_in));
-    if (!options.archive.empty()) write_file_atomically(options.archive, archive_text(options, result));
+    if (!options.archive.empty())
+        write_file_atomically(options.archive, archive_text(options, start, result));
     fmt::print("{}\n", options.out);
 }
 
@@ -318,7 +327,7 @@ void add_search_command(CLI::App& app) {
     command
         ->add_option("--local-moves", o.moves,
                      "swaps tried on every child (default: 400 times the square of the lobes; 100 times with "
-                     "--mirrors), or moves of a walker in a generation")
+                     "--mirrors), or moves of a walker in a generation (default: about a second of them)")
         ->check(CLI::PositiveNumber);
     command->add_option("--crossover", o.crossover, "fraction of children with two parents")
         ->capture_default_str()

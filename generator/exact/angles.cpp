@@ -39,11 +39,12 @@ const auto decimal = [](auto& c) {
 };
 
 const auto parenthesised = '(' >> sum >> ')';
+const auto exponent = x3::lit('e') >> -x3::char_("+-") >> +x3::digit;
 const auto sum_def = product[assign] >> *('+' >> product[add] | '-' >> product[subtract]);
 const auto product_def = factor[assign] >> *('*' >> factor[multiply] | '/' >> factor[divide]);
 const auto factor_def = '-' >> factor[negate] | "sqrt" >> parenthesised[square_root] |
                         "acos" >> parenthesised[arc_cosine] | x3::lit("pi")[pi] | parenthesised[assign] |
-                        x3::raw[x3::lexeme[+x3::digit >> -('.' >> *x3::digit)]][decimal];
+                        x3::raw[x3::lexeme[+x3::digit >> -('.' >> *x3::digit) >> -exponent]][decimal];
 
 BOOST_SPIRIT_DEFINE(sum, product, factor)
 

@@ -8,7 +8,8 @@
 namespace zonal::exact {
 
 /// Value at 50 digits of a closed form: numbers, `pi`, `sqrt(…)`, `acos(…)`, `+ - * /`, parentheses; nothing
-/// else. "acos(sqrt((15+2*sqrt(30))/35))" is an example, a plain decimal another.
+/// else. "acos(sqrt((15+2*sqrt(30))/35))" is an example, a plain decimal another, with an
+/// exponent or without.
 /// Throws std::invalid_argument that quotes the text and the place it could not read.
 Real evaluate_closed_form(std::string_view text);
 

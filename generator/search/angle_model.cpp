@@ -35,6 +35,8 @@ BandDerivatives differentiate_band(int l, double theta, double phi) {
 }
 
 bool AngleModel::evaluate(const std::vector<double>& angles) {
+    is_lobe_at_pole_.clear();
+    for (std::size_t i = 0; i < angles.size(); i += 2) is_lobe_at_pole_.push_back(is_at_pole(angles[i]));
     for (std::size_t b = 0; b < bands_.size(); ++b) {
         const int l = problem_.bands[b], size = 2 * l + 1;
         Band& band = bands_[b];
@@ -85,6 +87,7 @@ exact::Matrix<double> AngleModel::jacobian(const Pattern& pattern) const {
         const auto [band_index, row, column, other_row, sign] = pattern[r];
         const exact::Matrix<double>& a_hat = bands_[band_index].a_hat;
         for (int d = 0; d < a_hat.cols(); ++d) {
+            if (is_lobe_at_pole_[d]) continue;
             const double weight = (other_row < 0 ? 0 : sign * a_hat(other_row, d)) - a_hat(row, d);
             jacobian(r, 2 * d) = weight * slopes_by_theta[band_index](d, column);
             jacobian(r, 2 * d + 1) = weight * slopes_by_phi[band_index](d, column);

@@ -30,7 +30,8 @@ class AngleModel {
     /// Derivative of a residual by every angle.
     exact::Vector<double> residual_gradient(const Relation& relation) const;
 
-    /// The derivatives of all residuals of a pattern: a row for each relation, a column for each angle.
+    /// The derivatives of all residuals of a pattern: a row for each relation, a column for each angle. Lobes
+    /// at the pole stay there: their columns are zero.
     exact::Matrix<double> jacobian(const Pattern& pattern) const;
 
     /// Sum over the bands of log2(||Â_l||_F); adds `weight` times its gradient to `gradient`.
@@ -44,6 +45,7 @@ class AngleModel {
 
     const Problem& problem_;
     std::vector<Band> bands_;
+    std::vector<bool> is_lobe_at_pole_;
 };
 
 /// y_l^{-l} … y_l^l at two angles with their derivatives.

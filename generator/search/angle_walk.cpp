@@ -1,6 +1,7 @@
 #include "search/angle_walk.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -52,16 +53,9 @@ AngleWalk::Place AngleWalk::here() const {
 }
 
 void AngleWalk::start_from(const AngledSet& lobes) {
-    go_to(angles_in_double(lobes));
+    [[maybe_unused]] const bool is_regular = go_to(angles_in_double(lobes));
+    assert(is_regular);
     current_ = best_ = here();
-}
-
-/// The Jacobian, in which lobes at the pole do not move.
-Matrix<double> AngleWalk::movable_jacobian(const Pattern& pattern) const {
-    Matrix<double> jacobian = model_.jacobian(pattern);
-    for (std::size_t i = 0; i < angles_.size(); i += 2)
-        if (is_at_pole(angles_[i])) jacobian.middleCols(i, 2).setZero();
-    return jacobian;
 }
 
 /// To first order, from one decomposition of the Jacobian's transpose: what its columns span, and the rest.
@@ -69,9 +63,10 @@ Matrix<double> AngleWalk::movable_jacobian(const Pattern& pattern) const {
 AngleWalk::Freedom AngleWalk::freedom_of(const Pattern& pattern) const {
     const int angles = static_cast<int>(angles_.size()), relations = static_cast<int>(pattern.size());
     Matrix<double> columns = Matrix<double>::Zero(angles, relations + angles);
-    columns.leftCols(relations) = movable_jacobian(pattern).transpose();
+    columns.leftCols(relations) = model_.jacobian(pattern).transpose();
+    const double norm = std::max(1.0, columns.norm());  // so that they count beside any other
     for (int i = 0; i < angles; ++i)
-        if (is_at_pole(angles_[i - i % 2])) columns(i, relations + i) = 1;
+        if (is_at_pole(angles_[i - i % 2])) columns(i, relations + i) = norm;
     Eigen::ColPivHouseholderQR<Matrix<double>> decomposition;
     decomposition.setThreshold(kFlat);
     decomposition.compute(columns);
@@ -90,7 +85,7 @@ AngleWalk::Freedom AngleWalk::freedom_of(const Pattern& pattern) const {
 /// Gives up the zeros that would break if one lobe, or all lobes of one parallel, were moved; and sometimes
 /// most of those that another lobe would break.
 Pattern AngleWalk::without_some(const Pattern& zeros) {
-    const Matrix<double> jacobian = movable_jacobian(zeros);
+    const Matrix<double> jacobian = model_.jacobian(zeros);
     const int lobes = problem_->lobe_count;
     const int lobe = random_.below(lobes), angle = random_.below(2);
     Matrix<double> directions = Matrix<double>::Zero(2 * lobes, 2);
@@ -122,15 +117,7 @@ Pattern AngleWalk::without_some(const Pattern& zeros) {
 /// A nonzero of a band >= 2 that the freedom can make zero; the nearer, the likelier.
 std::optional<Relation> AngleWalk::draw_target(const Matrix<double>& freedom) {
     constexpr double kBlur = 0.15;
-    const std::vector<Matrix<double>> a_hats = model_.a_hats();
-    Pattern nonzeros;
-    for (std::size_t b = 0; b < a_hats.size(); ++b) {
-        if (problem_->bands[b] < 2) continue;
-        for (int column = 0; column < a_hats[b].cols(); ++column)
-            for (int row = 0; row < a_hats[b].rows(); ++row)
-                if (std::abs(a_hats[b](row, column)) >= kZeroInDouble)
-                    nonzeros.push_back({static_cast<int>(b), row, column});
-    }
+    const Pattern nonzeros = nonzeros_of(*problem_, model_.a_hats());
     const Vector<double> slopes = (model_.jacobian(nonzeros) * freedom).rowwise().norm();
     std::optional<Relation> target;
     double nearest = std::numeric_limits<double>::infinity();
@@ -149,7 +136,7 @@ std::optional<Relation> AngleWalk::draw_target(const Matrix<double>& freedom) {
 /// they are anywhere.
 bool AngleWalk::make_zero(const Pattern& pattern) {
     constexpr int kMostSteps = 60;
-    constexpr double kSolved = 1e-24, kLongestStep = 0.4;
+    constexpr double kSolved = 1e-12, kLongestStep = 0.4;
     double damping = 1e-3, least = std::numeric_limits<double>::infinity();
     int slow_steps = 0;
     std::vector<double> angles = angles_;
@@ -157,12 +144,12 @@ bool AngleWalk::make_zero(const Pattern& pattern) {
         if (!go_to(angles)) return false;
         Vector<double> residuals(pattern.size());
         for (std::size_t r = 0; r < pattern.size(); ++r) residuals(r) = model_.residual(pattern[r]);
+        if (residuals.cwiseAbs().maxCoeff() < kSolved) return true;
         const double square = residuals.squaredNorm();
-        if (square < kSolved) return true;
         slow_steps += square > 0.9 * least;
         damping = square > least ? 8 * damping : 0.2 * damping;
         least = std::min(least, square);
-        const Matrix<double> jacobian = movable_jacobian(pattern);
+        const Matrix<double> jacobian = model_.jacobian(pattern);
         Matrix<double> squares = jacobian.transpose() * jacobian;
         // With the residuals the damping vanishes, so that the end is quadratic; never all of it, since the
         // zeros of a pattern depend on each other.
@@ -177,39 +164,45 @@ bool AngleWalk::make_zero(const Pattern& pattern) {
 void AngleWalk::move() {
     if (!go_to(current_.angles)) return;
     Pattern kept = current_.zeros;
-    Freedom freedom = freedom_of(kept);
-    if (!freedom.is_any() || random_.chance(0.5)) {
+    Freedom freedom;
+    if (random_.chance(0.5)) freedom = freedom_of(kept);
+    if (!freedom.is_any()) {
         kept = without_some(kept);
         freedom = freedom_of(kept);
     }
     Place reached;
     for (int gain = 0; gain < kMostGains && freedom.is_any(); ++gain) {
-        const std::vector<double> from = angles_;
-        bool is_solved = false;
-        for (int trial = 0; trial < kMostTrials && !is_solved; ++trial) {
-            if (!go_to(from)) return;
-            const auto target = draw_target(freedom.directions);
-            if (!target) break;
-            if (random_.chance(0.5)) {  // from somewhere else along the freedom
-                Vector<double> along(freedom.directions.cols());
-                for (double& part : along) part = 0.4 * random_.uniform() - 0.2;
-                const Vector<double> change = freedom.directions * along;
-                for (std::size_t i = 0; i < from.size(); ++i) angles_[i] += change(i);
-            }
-            Pattern independent = freedom.independent, all = kept;
-            independent.push_back(*target);
-            all.push_back(*target);
-            // Mostly the others hold too, and a step costs far less.
-            is_solved = make_zero(independent) && make_zero(all);
-        }
-        if (!is_solved) break;
-        reached = here();
-        kept = reached.zeros;
+        if (!gain_a_zero(kept, freedom)) break;
+        Place place = here();
+        kept = place.zeros;
         freedom = freedom_of(kept);
+        if (place.cost < reached.cost) reached = std::move(place);
     }
     if (!(reached.cost <= current_.cost - temperature_ * std::log(1 - random_.uniform()))) return;
     if (reached.cost < best_.cost - kZeroInDouble) best_ = reached;
     current_ = std::move(reached);
+}
+
+/// From where the angles are. False when they came to no further zero: then they are anywhere.
+bool AngleWalk::gain_a_zero(const Pattern& kept, const Freedom& freedom) {
+    const std::vector<double> from = angles_;
+    for (int trial = 0; trial < kMostTrials; ++trial) {
+        if (trial > 0 && !go_to(from)) return false;
+        const auto target = draw_target(freedom.directions);
+        if (!target) return false;
+        if (random_.chance(0.5)) {  // from somewhere else along the freedom
+            Vector<double> along(freedom.directions.cols());
+            for (double& part : along) part = 0.4 * random_.uniform() - 0.2;
+            const Vector<double> change = freedom.directions * along;
+            for (std::size_t i = 0; i < from.size(); ++i) angles_[i] += change(i);
+        }
+        Pattern independent = freedom.independent, all = kept;
+        independent.push_back(*target);
+        all.push_back(*target);
+        // Mostly the others hold too, and a step costs far less.
+        if (make_zero(independent) && make_zero(all)) return true;
+    }
+    return false;
 }
 
 }  // namespace zonal::search

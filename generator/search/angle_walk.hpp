@@ -11,10 +11,10 @@
 
 namespace zonal::search {
 
-/// Local search among lobes anywhere on the sphere, in double, by ruin and recreate. A move gives up some
-/// zeros of Â, which frees angles; then it makes one nonzero after another zero, as long as the zeros that
-/// are left leave freedom, by Levenberg and Marquardt's method on the angles. What comes out is taken or not
-/// by Metropolis's rule.
+/// Local search among lobes anywhere on the sphere, in double, by ruin and recreate (Schrimpf et al., 2000).
+/// A move gives up some zeros of Â, which frees angles; then it makes one nonzero after another zero, as long
+/// as the zeros that are left leave freedom, by Levenberg and Marquardt's method on the angles. The cheapest
+/// place on that way is taken or not by Metropolis's rule. Lobes can come to the pole, and stay there.
 class AngleWalk {
   public:
     /// A regular set, by its angles (theta_0, phi_0, theta_1, …), with its zeros.
@@ -55,11 +55,11 @@ class AngleWalk {
     bool go_to(std::vector<double> angles);
     Place here() const;
     double cost(const std::vector<exact::Matrix<double>>& a_hats) const;
-    exact::Matrix<double> movable_jacobian(const Pattern& pattern) const;
     Freedom freedom_of(const Pattern& pattern) const;
     Pattern without_some(const Pattern& zeros);
     std::optional<Relation> draw_target(const exact::Matrix<double>& freedom);
     bool make_zero(const Pattern& pattern);
+    bool gain_a_zero(const Pattern& kept, const Freedom& freedom);
 
     const Problem* problem_;
     Objective objective_;

@@ -13,7 +13,7 @@
 namespace zonal::search {
 namespace {
 
-/// Some seconds of moves: the decompositions of one take as many operations as the cube of the lobes.
+/// About a second of moves, by trial.
 int usual_moves(const Problem& problem) {
     const double lobes = problem.lobe_count;
     return std::max(20, static_cast<int>(1e6 / (lobes * lobes * lobes)));
@@ -39,8 +39,10 @@ class Walker {
     }
 
     void step(const std::function<bool()>& is_stopped) {
-        for (int move = 0; move < moves_ && !is_stopped(); ++move) walk_.move();
-        if (walk_.best().cost < best_.score.cost(objective_) - kWorthwhile) confirm_best();
+        for (int move = 0; move < moves_ && !is_stopped(); ++move) {
+            walk_.move();
+            if (walk_.best().cost < best_.score.cost(objective_) - kWorthwhile) confirm_best();
+        }
     }
 
     const Solution& best() const { return best_; }
@@ -59,9 +61,6 @@ class Walker {
         walk_.start_from(best_.lobes);
     }
 
-    /// A gain of cost that is worth leaving closed forms for.
-    static constexpr double kWorthwhile = 0.02;
-
     const Problem* problem_;
     int moves_;
     Objective objective_;
@@ -70,13 +69,11 @@ class Walker {
     std::vector<Solution> front_;
 };
 
-/// Angles that came to a zero of a Legendre function, or to a fraction of pi, take its closed form.
-Solution with_closed_forms(const Problem& problem, Solution solution) {
+/// All Legendre zeros of the bands up to the highest.
+CandidateGrid grid_for(const Problem& problem) {
     std::vector<int> zero_bands(problem.highest_band());
     std::iota(zero_bands.begin(), zero_bands.end(), 1);
-    CandidateGrid grid(problem.highest_band(), zero_bands);
-    solution.lobes = with_angles(grid, put_on_grid(grid, solution.lobes));
-    return solution;
+    return CandidateGrid(problem.highest_band(), zero_bands);
 }
 
 }  // namespace
@@ -86,6 +83,8 @@ SearchResult search_off_grid(const Problem& problem, const SearchSettings& setti
     Course course({settings.generations, settings.seconds, settings.genetic.stall_generations}, stop);
     SearchResult result;
     result.best = confirm(problem, settings.start.value());
+    if (result.best.score.is_allowed(settings.objective)) add_to_front(result.front, result.best);
+    CandidateGrid grid = grid_for(problem);
     std::vector<Walker> walkers;
     if (moves == 0) moves = usual_moves(problem);
     for (int i = 0; i < settings.islands; ++i) walkers.emplace_back(problem, settings, moves, result.best, i);
@@ -97,9 +96,11 @@ SearchResult search_off_grid(const Problem& problem, const SearchSettings& setti
         for (const Walker& walker : walkers) {
             evaluations += walker.evaluations();
             if (!is_better(walker.best(), result.best, settings.objective)) continue;
-            result.best = with_closed_forms(problem, walker.best());
+            result.best = walker.best();
             has_better = true;
         }
+        // Angles that came to a Legendre zero or to a fraction of pi take its closed form.
+        if (has_better) result.best.lobes = with_angles(grid, put_on_grid(grid, result.best.lobes));
         course.finish_generation(result.best, has_better, evaluations);
         if (course.progress.generation % settings.generations_between_exchanges == 0)
             for (Walker& walker : walkers) walker.begin_at(result.best);

@@ -266,14 +266,19 @@ SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSet
     std::vector<Island> islands;
     for (int i = 0; i < settings.islands; ++i)
         islands.emplace_back(l, grid, orbit_pool, settings, moves, emitted_cost, i);
+    SearchResult result;
+    double best_cost = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Measured& measured) {
+        best_cost = measured.cost;
+        result.best = measured.solution;
+        course.progress.instructions = measured.instructions;
+    };
     if (start) {
         const std::optional<OrbitSet> whole = orbit_pool.orbits_of(*start);
         if (!whole) throw std::invalid_argument("lobes that are not closed under these mirrors");
         for (Island& island : islands) island.adopt(*whole);
+        take(islands.front().best());
     }
-
-    SearchResult result;
-    double best_cost = std::numeric_limits<double>::infinity();
     do {
         tbb::parallel_for(0, settings.islands,
                           [&](int i) { islands[i].step([&] { return course.is_stopped(); }); });
@@ -282,9 +287,7 @@ SearchResult search_orbits(int l, const SearchSettings& settings, const OrbitSet
         for (const Island& island : islands) {
             evaluations += island.evaluations();
             if (!(island.best().cost < best_cost)) continue;
-            best_cost = island.best().cost;
-            result.best = island.best().solution;
-            course.progress.instructions = island.best().instructions;
+            take(island.best());
             has_better = true;
         }
         course.finish_generation(result.best, has_better, evaluations);

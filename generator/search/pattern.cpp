@@ -23,6 +23,19 @@ Pattern zeros_of(const std::vector<exact::Matrix<double>>& a_hats) {
     return zeros;
 }
 
+Pattern nonzeros_of(const Problem& problem, const std::vector<exact::Matrix<double>>& a_hats) {
+    Pattern nonzeros;
+    for (std::size_t b = 0; b < a_hats.size(); ++b) {
+        if (problem.bands[b] < 2) continue;
+        for (int column = 0; column < a_hats[b].cols(); ++column) {
+            for (int row = 0; row < a_hats[b].rows(); ++row) {
+                if (!is_zero(a_hats[b](row, column))) nonzeros.push_back({static_cast<int>(b), row, column});
+            }
+        }
+    }
+    return nonzeros;
+}
+
 Pattern equalities_of(const std::vector<exact::Matrix<double>>& a_hats) {
     Pattern equalities;
     for (std::size_t b = 0; b < a_hats.size(); ++b) {

@@ -27,6 +27,9 @@ using Pattern = std::vector<Relation>;
 /// The zeros of bands given by their inverses, in the order of the problem's bands.
 Pattern zeros_of(const std::vector<exact::Matrix<double>>& a_hats);
 
+/// The entries of bands >= 2 that are not zero, as relations that would make them so.
+Pattern nonzeros_of(const Problem& problem, const std::vector<exact::Matrix<double>>& a_hats);
+
 /// The pairs of entries of one column that share |value| other than zero.
 Pattern equalities_of(const std::vector<exact::Matrix<double>>& a_hats);
 

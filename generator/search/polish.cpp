@@ -64,6 +64,9 @@ AngledLobe wrapped(AngledLobe lobe) {
         set(lobe.phi, lobe.phi.value + pi);
     }
     set(lobe.phi, lobe.phi.value - floor(lobe.phi.value / (2 * pi)) * 2 * pi);
+    // What polishing leaves of zero, from either side.
+    const Real tiny{"1e-40"};
+    if (lobe.phi.value < tiny || 2 * pi - lobe.phi.value < tiny) lobe.phi = {0, "0"};
     return lobe;
 }
 

@@ -24,9 +24,6 @@ using exact::Real;
 /// How many of the smallest entries are tried as further zeros.
 constexpr int kMostTargets = 24;
 
-/// A gain of cost that is worth leaving closed forms for.
-constexpr double kWorthwhile = 0.02;
-
 class Refiner {
   public:
     Refiner(const Problem& problem, const Objective& objective, const Solution& start)
@@ -73,30 +70,17 @@ class Refiner {
     /// Whether angles can move, to first order, with the pattern unbroken.
     bool has_freedom(const Pattern& pattern) {
         model_.evaluate(angles_);
-        exact::Matrix<double> jacobian = model_.jacobian(pattern);
         int movable = 0;
-        for (int i = 0; i < static_cast<int>(angles_.size()); ++i) {
-            movable += is_movable(i);
-            if (!is_movable(i)) jacobian.col(i).setZero();
-        }
+        for (int i = 0; i < static_cast<int>(angles_.size()); ++i) movable += is_movable(i);
         Eigen::ColPivHouseholderQR<exact::Matrix<double>> decomposition;
         decomposition.setThreshold(1e-7);
-        decomposition.compute(jacobian);
+        decomposition.compute(model_.jacobian(pattern));
         return decomposition.rank() < movable;
     }
 
     /// The smallest entries of bands >= 2 that are not zero, smallest first.
     Pattern targets() const {
-        Pattern targets;
-        for (std::size_t b = 0; b < a_hats_.size(); ++b) {
-            if (problem_.bands[b] < 2) continue;
-            for (int column = 0; column < a_hats_[b].cols(); ++column) {
-                for (int row = 0; row < a_hats_[b].rows(); ++row) {
-                    if (std::abs(a_hats_[b](row, column)) < kZeroInDouble) continue;
-                    targets.push_back({static_cast<int>(b), row, column});
-                }
-            }
-        }
+        Pattern targets = nonzeros_of(problem_, a_hats_);
         std::ranges::stable_sort(targets, {}, [&](const Relation& target) {
             return std::abs(target.residual(a_hats_[target.band_index]));
         });

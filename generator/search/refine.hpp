@@ -13,6 +13,9 @@ struct Solution {
     Score score;
 };
 
+/// A gain of cost that is worth leaving closed forms for.
+inline constexpr double kWorthwhile = 0.02;
+
 /// The solution of a set, scored at 50 digits.
 Solution confirm(const Problem& problem, const AngledSet& lobes);
 

@@ -3,7 +3,8 @@
 # afresh: a genetic search with another seed, weights and rings, then a walk off the grid from what it found, unless that
 # is hopeless. An odd round walks on from the best. The best table of each is kept, at first the committed one.
 # Band 10 and order 10 are given SECONDS a search, the others a time in proportion to their number.
-# A line a search: what it found, its options, the best so far and the goal in nonzeros. Stop with Ctrl-C.
+# A line a search: what it found, its options, the best so far and the goal in nonzeros. Stop with Ctrl-C; the search
+# under way is then lost.
 # Usage: nice bash tests/bench/long_search.sh FOLDER [SECONDS [ZONAL_GEN [FIRST_ROUND]]] | tee -a tests/bench/long_search.log
 # ITEMS="band07:92 order10:680" seeks these alone.
 set -euo pipefail
@@ -14,6 +15,7 @@ gen=${3:-build/release/bin/zonal-gen}
 items=${ITEMS:-order07:218 order08:334 order09:490 order10:680 band07:92 band05:46 order06:130 order05:66 band08:119
   band09:166 band10:198 band06:65 band11:264 band12:287 order11 band13:379 order12 band14:437 order13 band15:499 order14
   band16:566 order15 band17:637 order16 band18:711 order17 order18 order19 order20}
+[ -x "$gen" ] || { echo "$gen: not found; build it, or name another" >&2; exit 1; }
 mkdir -p "$best"
 
 nonzeros_of() { sed -n 's/^  "nonzeros": \([0-9]*\).*/\1/p' "$1"; }
@@ -24,7 +26,7 @@ search() { # OPTIONS...: leaves its table in $best/found.json and says what it f
     least=$(printf '%s\n' "$(nonzeros_of "$best/found.json")" "$(nonzeros_of "$table")" | sort -n | head -1)
     echo "${use#--} $number: $found [${*//$best\//} --seed $round] best $least, goal $goal"
   else
-    echo "${use#--} $number: nothing [$* --seed $round]"
+    echo "${use#--} $number: nothing: ${found##*$'\n'} [${*//$best\//} --seed $round]"
     return 1
   fi
 }
@@ -52,7 +54,9 @@ for ((round = ${4:-1};; ++round)); do
     fi
     search --walk --resume "$start" $some || continue
     more=$(($(nonzeros_of "$best/found.json") - $(nonzeros_of "$table")))
-    # At the same nonzeros the fewer multiplications, which the first weights see.
-    if [ $more -lt 0 ] || { [ $more -eq 0 ] && [ $((round % 3)) -eq 0 ]; }; then mv "$best/found.json" "$table"; fi
+    # At the same nonzeros, too, what went on from the table is the cheaper for the first weights, and they see all.
+    if [ $more -lt 0 ] || { [ $more -eq 0 ] && [ "$start" = "$table" ] && [ $((round % 3)) -eq 0 ]; }; then
+      mv "$best/found.json" "$table"
+    fi
   done
 done

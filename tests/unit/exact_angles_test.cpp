@@ -28,6 +28,12 @@ TEST(ClosedForm, keeps_every_digit_of_a_decimal) {
     EXPECT_EQ(decimal_text(evaluate_closed_form(digits)), digits);
 }
 
+TEST(ClosedForm, reads_what_is_written_of_small_angles) {
+    for (const char* text : {"5e-05", "1.25e-41", "3e+20"})
+        EXPECT_EQ(decimal_text(evaluate_closed_form(text)), decimal_text(Real{text}));
+    EXPECT_EQ(evaluate_closed_form(decimal_text(Real{"2.5e-7"})), Real{"2.5e-7"});
+}
+
 TEST(ClosedForm, multiplies_before_adding_and_groups_from_the_left) {
     EXPECT_EQ(evaluate_closed_form("1 + 2*3"), 7);
     EXPECT_EQ(evaluate_closed_form("10 - 4 - 3"), 3);
@@ -36,7 +42,8 @@ TEST(ClosedForm, multiplies_before_adding_and_groups_from_the_left) {
 }
 
 TEST(ClosedForm, quotes_what_it_cannot_read) {
-    for (const char* text : {"", "pi/", "sqrt(2", "cos(1)", "1..2", "1/0", "acos(2)", "sqrt(-1)", "pi pi"}) {
+    for (const char* text :
+         {"", "pi/", "sqrt(2", "cos(1)", "1..2", "1e", "1/0", "acos(2)", "sqrt(-1)", "pi pi"}) {
         try {
             evaluate_closed_form(text);
             ADD_FAILURE() << "read \"" << text << '"';

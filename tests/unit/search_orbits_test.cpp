@@ -167,12 +167,16 @@ TEST(OrbitSearch, resumed_is_never_worse) {
     SearchSettings settings = settings_for(1);
     settings.seed = 2;
     settings.start = first.best.lobes;
-    const SearchResult second = search_orbits(4, settings, {2, 1}, instructions, kNoStop);
+    int improvements = 0;
+    SearchObserver observer;
+    observer.on_better = [&](const Solution&, const Progress&) { ++improvements; };
+    const SearchResult second = search_orbits(4, settings, {2, 1}, instructions, kNoStop, observer);
     const auto cost = [&](const SearchResult& result) {
         return result.progress.instructions +
                settings.objective.condition_weight * std::log2(result.best.score.condition);
     };
     EXPECT_LE(cost(second), cost(first) + 1e-9);
+    EXPECT_EQ(improvements > 0, cost(second) < cost(first) - 1e-9);
 }
 
 TEST(OrbitSearch, refuses_to_resume_from_lobes_of_other_mirrors) {

@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "lobe_table.hpp"
+
+namespace zonal {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A fresh folder, and the tool run in it with a table a.json to read and b.json to write.
+class SearchCommand : public testing::Test {
+  protected:
+    SearchCommand() {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+
+    int search(const std::string& options, const std::string& out) {
+        const std::string command =
+            "'" ZONAL_GEN "' search " + options + " --out '" + path(out) + "' >'" + path("output") + "' 2>&1";
+        return std::system(command.c_str());
+    }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    std::string bytes(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+  private:
+    fs::path folder_ = fs::path(testing::TempDir()) / ("zonal_search_" + std::to_string(getpid()));
+};
+
+TEST_F(SearchCommand, what_a_walk_makes_better_names_the_search_that_made_its_start) {
+    ASSERT_EQ(search("--band 4 --generations 1 --on-grid --local-moves 20", "a.json"), 0);
+    const LobeTable start = read_lobe_table(path("a.json"), LobeUse::band(4));
+    ASSERT_EQ(search("--band 4 --walk --resume '" + path("a.json") +
+                         "' --seed 3 --generations 2 --islands 2 --local-moves 300",
+                     "b.json"),
+              0);
+    const LobeTable better = read_lobe_table(path("b.json"), LobeUse::band(4));
+    EXPECT_LT(better.nonzeros, start.nonzeros);
+    EXPECT_THAT(better.command, StartsWith(start.command + " && zonal-gen search --band 4 --seed 3 "));
+    EXPECT_THAT(better.command, HasSubstr(" --walk --resume generator/tables/band04.json"));
+}
+
+TEST_F(SearchCommand, what_it_cannot_make_better_stays_as_it_was) {
+    const fs::path table = fs::path(ZONAL_SOURCE_DIR) / "generator/tables/band02.json";
+    ASSERT_EQ(search("--band 2 --walk --resume '" + table.string() +
+                         "' --generations 1 --local-moves 100 --condition-weight 0",
+                     "b.json"),
+              0);
+    std::ifstream stream(table, std::ios::binary);
+    EXPECT_EQ(bytes("b.json"), (std::string{std::istreambuf_iterator<char>(stream), {}}));
+}
+
+TEST_F(SearchCommand, a_walk_without_a_start_is_refused) {
+    EXPECT_NE(search("--band 4 --walk", "b.json"), 0);
+    EXPECT_THAT(bytes("output"), HasSubstr("--walk requires --resume"));
+    EXPECT_FALSE(fs::exists(path("b.json")));
+}
+
+}  // namespace
+}  // namespace zonal
