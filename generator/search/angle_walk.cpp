@@ -76,6 +76,7 @@ AngleWalk::Freedom AngleWalk::freedom_of(const Pattern& pattern) const {
         const int column = decomposition.colsPermutation().indices()(i);
         if (column < relations) freedom.independent.push_back(pattern[column]);
     }
+    if (rank == angles) return freedom;
     freedom.directions = Matrix<double>::Zero(angles, angles - rank);
     freedom.directions.bottomRows(angles - rank).setIdentity();
     freedom.directions.applyOnTheLeft(decomposition.householderQ());
