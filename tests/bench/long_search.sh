@@ -54,7 +54,7 @@ for ((round = ${4:-1};; ++round)); do
     fi
     search --walk --resume "$start" $some || continue
     more=$(($(nonzeros_of "$best/found.json") - $(nonzeros_of "$table")))
-    # At the same nonzeros, too, what went on from the table is the cheaper for the first weights, and they see all.
+    # The first weights see multiplications and the condition too: at the same nonzeros, a walk from the table is cheaper.
     if [ $more -lt 0 ] || { [ $more -eq 0 ] && [ "$start" = "$table" ] && [ $((round % 3)) -eq 0 ]; }; then
       mv "$best/found.json" "$table"
     fi
