@@ -57,7 +57,8 @@ TEST_F(SearchCommand, what_a_walk_makes_better_names_the_search_that_made_its_st
 TEST_F(SearchCommand, what_it_cannot_make_better_stays_as_it_was) {
     const fs::path table = fs::path(ZONAL_SOURCE_DIR) / "generator/tables/band02.json";
     ASSERT_EQ(search("--band 2 --walk --resume '" + table.string() +
-                         "' --generations 1 --local-moves 100 --condition-weight 0",
+                         "' --generations 1 --local-moves 100 --multiplication-weight 0 "
+                         "--condition-weight 0",
                      "b.json"),
               0);
     std::ifstream stream(table, std::ios::binary);
