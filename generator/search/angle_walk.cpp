@@ -14,6 +14,9 @@ using exact::Vector;
 /// A derivative below this is zero: the entry stays as it is to first order.
 constexpr double kFlat = 1e-7;
 
+/// Lobes whose heights differ by less than this are on one parallel; this near the pole, they are on it.
+constexpr double kAlike = 1e-7;
+
 /// Entries that are farther away than this, in radians along the freedom, are not tried.
 constexpr double kReach = 1.5;
 
@@ -25,7 +28,7 @@ constexpr int kMostGains = 6, kMostTrials = 3;
 /// Evaluates the model there. A lobe that comes to the pole is put on it. False when a band is singular.
 bool AngleWalk::go_to(std::vector<double> angles) {
     for (std::size_t i = 0; i < angles.size(); i += 2)
-        if (std::abs(std::sin(angles[i])) < kFlat) angles[i] = angles[i + 1] = 0;
+        if (std::abs(std::sin(angles[i])) < kAlike) angles[i] = angles[i + 1] = 0;
     angles_ = std::move(angles);
     ++evaluations_;
     return model_.evaluate(angles_);
@@ -99,7 +102,7 @@ Pattern AngleWalk::without_some(const Pattern& zeros) {
         const double height = std::cos(angles_[2 * lobe]);
         for (int d = 0; d < lobes; ++d) {
             const double other = std::cos(angles_[2 * d]);
-            if (std::abs(std::abs(other) - std::abs(height)) > kFlat) continue;
+            if (std::abs(std::abs(other) - std::abs(height)) > kAlike) continue;
             const bool goes_along = angle == 0 ? other * height >= 0 : random_.chance(0.5);
             directions(2 * d + angle, 0) = goes_along ? 1 : -1;
         }

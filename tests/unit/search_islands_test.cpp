@@ -3,6 +3,7 @@
 
 #include "search/progress_text.hpp"
 #include "search/search.hpp"
+#include "support/lobe_sets.hpp"
 
 namespace zonal::search {
 namespace {
@@ -14,12 +15,6 @@ SearchSettings settings_for(const Problem& problem, int generations) {
     settings.generations = generations;
     settings.genetic = Genetic::with_local_steps(problem);
     return settings;
-}
-
-std::vector<std::string> texts_of(const AngledSet& lobes) {
-    std::vector<std::string> texts;
-    for (const AngledLobe& lobe : lobes) texts.push_back(lobe.theta.text + " " + lobe.phi.text);
-    return texts;
 }
 
 TEST(Search, same_seed_and_generations_give_the_same_lobes) {

@@ -5,28 +5,12 @@
 #include "search/angle_walk.hpp"
 #include "search/off_grid_search.hpp"
 #include "search/polish.hpp"
+#include "support/lobe_sets.hpp"
 
 namespace zonal::search {
 namespace {
 
 const std::atomic<bool> kNoStop = false;
-
-AngledLobe lobe(const char* theta, const char* phi) {
-    return {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}};
-}
-
-/// Lobes of band 4 on the grid, with 50 zeros; 52 are near.
-AngledSet band_4_on_the_grid() {
-    return {lobe("0", "0"),
-            lobe("pi/2", "0"),
-            lobe("pi/2", "pi/8"),
-            lobe("pi/2", "3*pi/8"),
-            lobe("pi/2", "pi/2"),
-            lobe("acos(sqrt(3/7))", "0"),
-            lobe("acos(sqrt(3/7))", "pi/2"),
-            lobe("acos(sqrt(1/7))", "pi"),
-            lobe("acos(sqrt(1/7))", "3*pi/2")};
-}
 
 constexpr int kMoves = 300;
 
@@ -38,26 +22,20 @@ SearchSettings settings_for(int generations) {
     return settings;
 }
 
-std::vector<std::string> texts_of(const AngledSet& lobes) {
-    std::vector<std::string> texts;
-    for (const AngledLobe& lobe : lobes) texts.push_back(lobe.theta.text + " " + lobe.phi.text);
-    return texts;
-}
-
 TEST(AngleWalk, finds_zeros_and_costs_that_50_digits_confirm) {
     const Problem problem = Problem::one_band(4);
     AngleWalk walk(problem, {}, 1.0, Random(1, 0));
     walk.start_from(band_4_on_the_grid());
     EXPECT_NEAR(walk.best().cost, confirm(problem, band_4_on_the_grid()).score.cost({}), 1e-6);
     const double cost_of_start = walk.best().cost;
-    for (int move = 0; move < 300; ++move) walk.move();
+    for (int move = 0; move < kMoves; ++move) walk.move();
     EXPECT_LT(walk.best().cost, cost_of_start - 1);
     const auto polished = polish_moved(problem, band_4_on_the_grid(), walk.best().angles, walk.best().zeros);
     ASSERT_TRUE(polished.has_value());
     const Score score = confirm(problem, *polished).score;
     EXPECT_EQ(score.zeros, static_cast<int>(walk.best().zeros.size()));
     EXPECT_NEAR(score.cost({}), walk.best().cost, 1e-6);
-    EXPECT_GT(walk.evaluations(), 300);
+    EXPECT_GT(walk.evaluations(), kMoves);
 }
 
 TEST(AngleWalk, comes_back_to_its_start) {
@@ -65,7 +43,7 @@ TEST(AngleWalk, comes_back_to_its_start) {
     AngleWalk walk(problem, {}, 1.0, Random(1, 0));
     walk.start_from(band_4_on_the_grid());
     const AngleWalk::Place start = walk.best();
-    for (int move = 0; move < 300; ++move) walk.move();
+    for (int move = 0; move < kMoves; ++move) walk.move();
     ASSERT_NE(walk.best().angles, start.angles);
     walk.start_from(band_4_on_the_grid());
     EXPECT_EQ(walk.best().angles, start.angles);

@@ -7,6 +7,7 @@
 #include "search/pattern.hpp"
 #include "search/polish.hpp"
 #include "search/refine.hpp"
+#include "support/lobe_sets.hpp"
 
 namespace zonal::search {
 namespace {
@@ -71,24 +72,6 @@ TEST(AngleModel, gradients_agree_with_differences) {
         EXPECT_NEAR(equality_gradient(i), (equality_at[1] - equality_at[0]) / (2 * step), 1e-6);
         EXPECT_NEAR(norm_gradient(i), (norm_at[1] - norm_at[0]) / (2 * step), 1e-6);
     }
-}
-
-/// The 52 zeros of band 4 in closed form.
-AngledSet best_of_band_4() {
-    const auto lobe = [](const char* theta, const char* phi) {
-        return AngledLobe{{exact::evaluate_closed_form(theta), theta},
-                          {exact::evaluate_closed_form(phi), phi}};
-    };
-    const char* off_grid = "acos(sqrt((123+6*sqrt(13))/181))";
-    return {lobe("0", "0"),
-            lobe("pi/2", "0"),
-            lobe("pi/2", "pi/8"),
-            lobe("pi/2", "3*pi/8"),
-            lobe("pi/2", "pi/2"),
-            lobe("acos(sqrt(3/7))", "0"),
-            lobe("acos(sqrt(3/7))", "pi/2"),
-            lobe(off_grid, "pi"),
-            lobe(off_grid, "3*pi/2")};
 }
 
 TEST(Polish, takes_a_perturbed_pattern_to_1e_minus_45) {
