@@ -258,7 +258,10 @@ class Batch {
         if constexpr (kFirst == 0 && Turn::kUse != Use::channels) {
             const bool is_touching =
                 job_.stride == kColumns && (!kHasOwn || job_.rotation_stride == Turn::kRotationLength);
-            if constexpr (N <= kLargestInlined) {
+            if constexpr (kMayTouchNine<kColumns>) {
+                if (is_touching && job_.is_large) return turn_nine<Large>(turn, writer);
+                if (is_touching) return turn_nine<Small>(turn, writer);
+            } else if constexpr (N <= kLargestInlined) {
                 if (is_touching && job_.is_large) return turn_rows<Large, true>(turn, writer);
                 if (is_touching) return turn_rows<Small, true>(turn, writer);
             } else {
@@ -299,6 +302,45 @@ class Batch {
             in += kWidth * stride;
             out += kWidth * stride;
         }
+        return k;
+    }
+
+    /// Order 3 where everything touches: a pack is written after the next one is read. The kernel is short,
+    /// and most of its operations wait for one another; reading and writing side by side fill the time.
+    /// Kernels of higher orders fill it by themselves, and would keep what waits outside of registers.
+    template <class Flow>
+    HWY_NOINLINE ZONAL_FLATTEN std::size_t turn_nine(Turn& turn, Writer* writer) const {
+        const T* in = job_.in;
+        const T* rotations = job_.rotations;
+        T* out = job_.out;
+        P turned[kColumns];
+        const auto write = [&](Flow& flow) {
+            T* const to = writer != nullptr ? writer->room() : out;
+            write_columns<kColumns>(turned, to, kColumns, [&] { flow.write(); });
+            if (writer != nullptr) writer->advance(kWidth * kColumns);
+            out += kWidth * kColumns;
+        };
+        const auto turn_next = [&](const auto& after_reading) {
+            Flow flow(job_, in, writer);
+            Turn own;
+            if constexpr (kHasOwn) {
+                own.load(rotations, Turn::kRotationLength);
+                if (job_.is_large) fetch_ahead(rotations, kWidth * Turn::kRotationLength);
+                rotations += kWidth * Turn::kRotationLength;
+            }
+            P f[kColumns];
+            read_columns<kColumns>(in, kColumns, f, [&] { flow.read(); });
+            in += kWidth * kColumns;
+            after_reading(flow);
+            (kHasOwn ? own : turn)(f);
+            for (std::size_t c = 0; c < kColumns; ++c) turned[c] = f[c];
+        };
+        if (job_.count < kWidth) return 0;
+        turn_next(Nothing());
+        std::size_t k = kWidth;
+        for (; k + kWidth <= job_.count; k += kWidth) turn_next(write);
+        Flow flow(job_, in, writer);
+        write(flow);
         return k;
     }
 
