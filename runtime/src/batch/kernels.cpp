@@ -224,8 +224,8 @@ class Batch {
 
         HWY_INLINE void read() {
             if (in_ == nullptr) return;
-            fetch_ahead(in_, kWidth * kBlock<T>);
-            in_ += kWidth * kBlock<T>;
+            fetch_ahead(in_, kStep);
+            in_ += kStep;
             write();
         }
         HWY_INLINE void write() {
@@ -233,6 +233,10 @@ class Batch {
         }
 
       private:
+        /// What all whole blocks of columns together read ahead is all that is read.
+        static constexpr std::size_t kStep =
+            kWidth * kColumns / (kColumns < kBlock<T> ? 1 : kColumns / kBlock<T>);
+
         /// Half of the lines of kBlock columns: as many are written while reading as while writing.
         static constexpr std::size_t kLine = Writer::kLineBytes / sizeof(T);
         static constexpr std::size_t kPace = kWidth * kBlock<T> < 2 * kLine ? kLine : kWidth * kBlock<T> / 2;

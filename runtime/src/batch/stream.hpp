@@ -8,6 +8,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <cstddef>
 #include <cstdint>
 
 #include "pack.hpp"
@@ -32,9 +33,10 @@ class Stream {
         write_waiting();
         fill_ += count;
         const std::size_t whole = fill_ - fill_ % kLine;
-        next_ = stage_[current_];
-        next_line_ = line_;
-        waiting_ = whole;
+        waiting_ = stage_[current_];
+        waiting_line_ = line_;
+        next_ = 0;
+        end_ = whole;
         if (HWY_UNLIKELY(foreign_ > 0 && whole > 0)) write_shared_line();
         line_ += whole;
         fill_ -= whole;
@@ -48,16 +50,16 @@ class Stream {
     template <std::size_t kCount>
     HWY_INLINE void write_some() {
         static_assert(kCount % kLine == 0);
-        if (waiting_ < kCount) return;
+        if (end_ - next_ < kCount) return;
+        const T* const from = waiting_ + next_;
+        T* const to = waiting_line_ + next_;
         for (std::size_t i = 0; i < kCount; i += kLanes<T>)
-            hn::Stream(hn::Load(Tag<T>(), next_ + i), Tag<T>(), next_line_ + i);
+            hn::Stream(hn::Load(Tag<T>(), from + i), Tag<T>(), to + i);
         next_ += kCount;
-        next_line_ += kCount;
-        waiting_ -= kCount;
     }
 
     HWY_INLINE void write_waiting() {
-        while (waiting_ > 0) write_some<kLine>();
+        while (next_ < end_) write_some<kLine>();
     }
 
     void finish() {
@@ -75,8 +77,6 @@ class Stream {
         for (std::size_t j = foreign_; j < kLine; ++j) line_[j] = stage_[current_][j];
         foreign_ = 0;
         next_ += kLine;
-        next_line_ += kLine;
-        waiting_ -= kLine;
     }
 
     alignas(kLineBytes) T stage_[2][(kRoom + 3 * kLine) / kLine * kLine];
@@ -84,9 +84,14 @@ class Stream {
     T* line_;              ///< the place of the current stage's first value
     std::size_t fill_;     ///< values in the current stage
     int current_ = 0;
-    const T* next_ = nullptr;  ///< in the other stage: what waits, and the line where it goes
-    T* next_line_ = nullptr;
-    std::size_t waiting_ = 0;  ///< values that wait there, whole lines
+
+    // What waits in the other stage, and its place. While it leaves, one number changes and no more: a
+    // compiler changes two that lie side by side by one vector instruction, whose load then waits until the
+    // two stores that wrote them have left the queue, behind those to memory.
+    const T* waiting_ = nullptr;
+    T* waiting_line_ = nullptr;
+    std::size_t next_ = 0;
+    std::size_t end_ = 0;  ///< whole lines
 };
 
 }  // namespace
