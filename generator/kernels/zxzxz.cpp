@@ -29,6 +29,10 @@ using graph::Graph;
 using graph::Number;
 using graph::Value;
 
+/// Up to this order set-up counts: the powers of the angles take the fewest instructions, and β stays as it
+/// is given.
+constexpr int kLastLeanOrder = 6;
+
 /// A block of X with its factorization and, for the scaled form, the row matched to each column.
 struct Block {
     QuarterTurnBlock x;
@@ -359,7 +363,7 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
     const Value y = rows[1][2];
     const Value x_x = x * x;
     const Value squared_sin_b = y * y + x_x;
-    const Value sin_b = named(sqrt(squared_sin_b), "b_s1");
+    Value sin_b = named(sqrt(squared_sin_b), "b_s1");
     // Two divisions, not products with one inverse: its rounding would be an error of the norm, which grows
     // in the powers.
     const Value cos_a = named(x / sin_b, "a_c1");
@@ -377,11 +381,22 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
     const Value half_defect = Number(0.5) * defect;
     sin_g = named(half_defect * sin_g + sin_g, "g_s1");
     cos_g = named(half_defect * cos_g + cos_g, "g_c1");
-    const PowerChain chain = order <= 6 ? PowerChain::recurrence : PowerChain::product;
+    // β alike: a norm that is not 1 tells that R is not orthonormal, by more than rounding. Above the lean
+    // orders its five instructions are few beside the rest.
+    const bool is_lean = order <= kLastLeanOrder;
+    Value cos_b = rows[2][2];
+    if (!is_lean) {
+        const Value one_b = one - cos_b * cos_b;
+        const Value defect_b = one_b - squared_sin_b;
+        const Value half_defect_b = Number(0.5) * defect_b;
+        sin_b = named(half_defect_b * sin_b + sin_b, "b_s1");
+        cos_b = named(half_defect_b * cos_b + cos_b, "b_c1");
+    }
+    const PowerChain chain = is_lean ? PowerChain::recurrence : PowerChain::product;
     EulerScalars scalars{order, AnglePowers(kernel, "a", cos_a, sin_a, chain, false),
-                         AnglePowers(kernel, "b", rows[2][2], sin_b, chain, true),
+                         AnglePowers(kernel, "b", cos_b, sin_b, chain, true),
                          AnglePowers(kernel, "g", cos_g, sin_g, chain, false)};
-    scalars.beta.set_squared_sine(squared_sin_b);
+    if (is_lean) scalars.beta.set_squared_sine(squared_sin_b);
     return scalars;
 }
 
