@@ -195,20 +195,27 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
     return entries;
 }
 
-/// What the file says of other orders and other kernels.
+/// What the file says, but for orders of which every kernel is measured anew.
 std::map<int, nlohmann::ordered_json> kept_bounds(const Options& options, const std::vector<int>& orders) {
     std::ifstream stream(options.out);
     const auto file = nlohmann::ordered_json::parse(stream);
     std::map<int, nlohmann::ordered_json> kept;
     for (const auto& entry : file.at("bounds")) {
         const int order = entry.at("order").get<int>();
-        const auto kernel = entry.at("kernel").get<std::string>();
-        const bool is_measured =
-            std::ranges::find(orders, order) != orders.end() &&
-            (options.kernels.empty() || std::ranges::find(options.kernels, kernel) != options.kernels.end());
-        if (!is_measured) kept[order].push_back(entry);
+        const bool is_measured = std::ranges::find(orders, order) != orders.end();
+        if (!is_measured || !options.kernels.empty()) kept[order].push_back(entry);
     }
     return kept;
+}
+
+/// Puts an entry in the place of the kernel's old one, or at the end.
+void put(nlohmann::ordered_json& entries, const nlohmann::ordered_json& entry) {
+    const auto old = std::ranges::find_if(
+        entries, [&](const auto& some) { return some.at("kernel") == entry.at("kernel"); });
+    if (old == entries.end())
+        entries.push_back(entry);
+    else
+        *old = entry;
 }
 
 void run(const Options& options) {
@@ -224,7 +231,7 @@ void run(const Options& options) {
         if (options.rotations == 0) of_order.rotations = n <= 2 ? 10000 : n <= 6 ? 500 : n <= 10 ? 150 : 40;
         const nlohmann::ordered_json entries = measure_order(n, of_order);
         const std::lock_guard lock(mutex);
-        for (const auto& entry : entries) measured[n].push_back(entry);
+        for (const auto& entry : entries) put(measured[n], entry);
         fmt::print("{}\n", entries.dump());
         std::fflush(stdout);
     });
