@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -367,19 +368,22 @@ TYPED_TEST(runtime_batch, layouts_larger_than_the_caches_match_single_rotations)
 
 TYPED_TEST(runtime_batch, long_runs_at_any_address_match_single_rotations) {
     using T = TypeParam;
-    const int order = zonal::compiled_orders().front();
     const std::size_t count = 20005;
     zonal::batch::set_streamed_bytes(1 << 16);
     for (const std::string_view target : zonal::batch::runnable_targets()) {
         ASSERT_TRUE(zonal::batch::choose_target(target));
-        for (const std::size_t offset : {0, 1, 5}) {
-            for (const Form form : {Form::matrices, Form::one_for_all}) {
-                SCOPED_TRACE(testing::Message() << target << ", offset " << offset);
-                Batch<T> batch({.order = order, .layout = {.count = count}, .form = form, .offset = offset});
-                batch.rotate();
-                for (std::size_t k = 0; k < count; k += k < 2000 || k + 200 > count ? 1 : 97)
-                    batch.expect_vector_turned(k, 0);
-                batch.expect_guards_untouched();
+        for (const int order : zonal::compiled_orders() | std::views::take(2)) {
+            for (const std::size_t offset : {0, 1, 5}) {
+                for (const Form form : {Form::matrices, Form::one_for_all}) {
+                    SCOPED_TRACE(testing::Message()
+                                 << target << ", order " << order << ", offset " << offset);
+                    Batch<T> batch(
+                        {.order = order, .layout = {.count = count}, .form = form, .offset = offset});
+                    batch.rotate();
+                    for (std::size_t k = 0; k < count; k += k < 2000 || k + 200 > count ? 1 : 97)
+                        batch.expect_vector_turned(k, 0);
+                    batch.expect_guards_untouched();
+                }
             }
         }
     }

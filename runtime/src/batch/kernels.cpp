@@ -233,9 +233,9 @@ class Batch {
         }
 
       private:
-        /// What all whole blocks of columns together read ahead is all that is read.
-        static constexpr std::size_t kStep =
-            kWidth * kColumns / (kColumns < kBlock<T> ? 1 : kColumns / kBlock<T>);
+        /// Values fetched ahead for each whole block of columns: together those of a pack of one channel.
+        static constexpr std::size_t kBlocks = kColumns < kBlock<T> ? 1 : kColumns / kBlock<T>;
+        static constexpr std::size_t kStep = (kWidth * kColumns + kBlocks - 1) / kBlocks;
 
         /// Half of the lines of kBlock columns: as many are written while reading as while writing.
         static constexpr std::size_t kLine = Writer::kLineBytes / sizeof(T);

@@ -49,17 +49,11 @@ class Stream {
     /// Writes kCount of the values that wait, whole lines, if there are as many.
     template <std::size_t kCount>
     HWY_INLINE void write_some() {
-        static_assert(kCount % kLine == 0);
-        if (end_ - next_ < kCount) return;
-        const T* const from = waiting_ + next_;
-        T* const to = waiting_line_ + next_;
-        for (std::size_t i = 0; i < kCount; i += kLanes<T>)
-            hn::Stream(hn::Load(Tag<T>(), from + i), Tag<T>(), to + i);
-        next_ += kCount;
+        if (end_ - next_ >= kCount) write_lines<kCount>();
     }
 
     HWY_INLINE void write_waiting() {
-        while (next_ < end_) write_some<kLine>();
+        while (next_ < end_) write_lines<kLine>();
     }
 
     void finish() {
@@ -72,6 +66,16 @@ class Stream {
     static constexpr std::size_t kLine = kLineBytes / sizeof(T);
 
   private:
+    template <std::size_t kCount>
+    HWY_INLINE void write_lines() {
+        static_assert(kCount % kLine == 0);
+        const T* const from = waiting_ + next_;
+        T* const to = waiting_line_ + next_;
+        for (std::size_t i = 0; i < kCount; i += kLanes<T>)
+            hn::Stream(hn::Load(Tag<T>(), from + i), Tag<T>(), to + i);
+        next_ += kCount;
+    }
+
     /// The first line of the run, which begins with values that are not of the run.
     HWY_NOINLINE void write_shared_line() {
         for (std::size_t j = foreign_; j < kLine; ++j) line_[j] = stage_[current_][j];
@@ -90,8 +94,8 @@ class Stream {
     // two stores that wrote them have left the queue, behind those to memory.
     const T* waiting_ = nullptr;
     T* waiting_line_ = nullptr;
-    std::size_t next_ = 0;
-    std::size_t end_ = 0;  ///< whole lines
+    std::size_t next_ = 0;  ///< the first value of the next line
+    std::size_t end_ = 0;   ///< behind the last
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 // the same order, only that they begin with different columns. With the columns numbered in that order, lane
 // i of column number p is in register p + shift(i) of the ring of nine. The shift is undone with masks, in
 // two steps of three registers each: its remainder modulo 3, then the rest. One permutation of lanes brings
-// the rows in order. Permutations of two registers would need fewer operations, but processors have fewer
-// units for them: 36 instead of 45, and a sixth more time where four units choose and two permute.
+// the rows in order. Writing is the reverse. Permutations of two registers instead of the second step and
+// that one would need 36 operations and not 45; on Zen 5 they took a sixth more time. Others were not tried.
 
 #include <cstddef>
 #include <cstdint>
@@ -63,8 +63,7 @@ struct NineRegisters {
 template <class T>
 inline constexpr NineRegisters<T> kNine;
 
-/// In every lane the register whose mask has it. Stores with masks instead would be faster at multiples of
-/// 64 bytes, and much slower at other addresses.
+/// In every lane the register whose mask has it.
 template <class T>
 HWY_INLINE Lanes<T> choose(const typename NineRegisters<T>::Masks& masks, Lanes<T> a, Lanes<T> b,
                            Lanes<T> c) {
@@ -101,6 +100,7 @@ HWY_INLINE void write_touching_nine(const Pack<T>* columns, T* rows) {
         lanes[p] = permute<T>(columns[nine.column[p]].lanes, nine.rows_of_lanes[p]);
     for (std::size_t r = 0; r < 9; ++r)
         partly[r] = choose<T>(nine.by_quotient, lanes[r], lanes[(r + 6) % 9], lanes[(r + 3) % 9]);
+    // Stores with masks would be faster at multiples of 64 bytes, and much slower at other addresses.
     for (std::size_t r = 0; r < 9; ++r) {
         const Lanes<T> whole =
             choose<T>(nine.by_remainder, partly[r], partly[(r + 8) % 9], partly[(r + 7) % 9]);
