@@ -122,8 +122,9 @@ template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void prepare_called(const P* R, P* scalars) {
     PackKernels<N>::prepare(R, scalars);
 }
+/// Scalars that are known to be no part of f stay in registers while f is written.
 template <int N>
-HWY_NOINLINE ZONAL_FLATTEN void apply_called(const P* scalars, P* f) {
+HWY_NOINLINE ZONAL_FLATTEN void apply_called(const P* HWY_RESTRICT scalars, P* HWY_RESTRICT f) {
     PackKernels<N>::apply(scalars, f);
 }
 
