@@ -35,8 +35,9 @@ void expect_within_bounds(int order) {
         EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))
             << name << ", order " << order << ", " << worst[k].name_of_rotations;
         // Below order 7 the leanest set-up leaves more.
-        if (order >= 7 && (name == "rotate" || name == "rotate_channels" || name == "apply"))
+        if (order >= 7 && (name == "rotate" || name == "rotate_channels" || name == "apply")) {
             EXPECT_LE(excess[name], (order - 1) / 2.0) << name << ", order " << order;
+        }
     }
 }
 
