@@ -122,7 +122,7 @@ template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void prepare_called(const P* R, P* scalars) {
     PackKernels<N>::prepare(R, scalars);
 }
-/// Scalars that are known to be no part of f stay in registers while f is written.
+/// No scalar is part of f: the compiler need not read them again after f is written.
 template <int N>
 HWY_NOINLINE ZONAL_FLATTEN void apply_called(const P* HWY_RESTRICT scalars, P* HWY_RESTRICT f) {
     PackKernels<N>::apply(scalars, f);
@@ -234,8 +234,8 @@ class Batch {
         }
 
       private:
-        /// Values fetched ahead for each whole block of columns: together those of a pack of one channel.
         static constexpr std::size_t kBlocks = kColumns < kBlock<T> ? 1 : kColumns / kBlock<T>;
+        /// Values fetched ahead for each whole block of columns: together those of a pack of one channel.
         static constexpr std::size_t kStep = (kWidth * kColumns + kBlocks - 1) / kBlocks;
 
         /// Half of the lines of kBlock columns: as many are written while reading as while writing.
