@@ -10,6 +10,9 @@ namespace zonal::exact {
 
 namespace {
 
+/// The search among shears takes longer than n!² 2^n.
+constexpr int kLargestForShears = 4;
+
 bool is_zero(const Real& value) { return abs(value) < kZeroThreshold; }
 
 /// Visits every signed permutation of n things.
@@ -34,8 +37,8 @@ Matrix<S> before_signed_permutation(const Matrix<S>& matrix, const std::vector<i
     return result;
 }
 
-OrthogonalBlock identity_of(int n) {
-    OrthogonalBlock block;
+BlockSteps identity_of(int n) {
+    BlockSteps block;
     block.size = n;
     block.sources.resize(n);
     std::iota(block.sources.begin(), block.sources.end(), 0);
@@ -49,8 +52,8 @@ Vector<Real> unit_term(int size, int index, const Real& factor) {
     return factors;
 }
 
-OrthogonalBlock by_lifting(const Matrix<Real>& matrix) {
-    OrthogonalBlock block = identity_of(2);
+BlockSteps by_lifting(const Matrix<Real>& matrix) {
+    BlockSteps block = identity_of(2);
     Real best_cosine = -1;
     for_each_signed_permutation(2, [&](const auto& sources, const auto& signs) {
         const Matrix<Real> rotation = before_signed_permutation(matrix, sources, signs);
@@ -80,13 +83,13 @@ void for_each_subset(int n, int size, Visit visit) {
 /// A symmetric orthogonal matrix is ±(I - 2P), P the projection onto the smaller eigenspace, V its
 /// orthonormal basis. With the rows S where V is best conditioned, P = W (V_S V_Sᵀ) Wᵀ, W = V V_S^-1, an
 /// identity on S.
-OrthogonalBlock by_reflection(const Matrix<Real>& matrix) {
+BlockSteps by_reflection(const Matrix<Real>& matrix) {
     const int n = static_cast<int>(matrix.rows());
     const Matrix<Real> identity = Matrix<Real>::Identity(n, n);
     const int dimension_of_minus_one = static_cast<int>(round((n - matrix.trace()) / 2));
     const bool is_minus = 2 * dimension_of_minus_one <= n;
     const int rank = is_minus ? dimension_of_minus_one : n - dimension_of_minus_one;
-    OrthogonalBlock block = identity_of(n);
+    BlockSteps block = identity_of(n);
     block.signs.assign(n, is_minus ? 1 : -1);
     if (rank == 0) return block;
     const Matrix<Real> projection = (identity - (is_minus ? 1 : -1) * matrix) / 2;
@@ -172,39 +175,103 @@ S largest_factor(const std::vector<Vector<S>>& factors) {
     return largest;
 }
 
-std::optional<OrthogonalBlock> by_shears(const Matrix<Real>& matrix) {
-    const int n = static_cast<int>(matrix.rows());
-    const Matrix<double> rough = matrix.cast<double>();
-    struct Choice {
-        std::vector<int> sources, signs, order;
-    } best;
-    double best_largest = 1;
+/// Where the signed permutation and the order of the rows leave something to choose.
+struct ShearChoice {
+    std::vector<int> sources, signs, order;
+};
+
+template <class Visit>
+void for_each_shear_choice(int n, Visit visit) {
     for_each_signed_permutation(n, [&](const auto& sources, const auto& signs) {
-        const Matrix<double> rotation = before_signed_permutation(rough, sources, signs);
-        if (rotation.determinant() < 0) return;
         std::vector<int> order(n);
         std::iota(order.begin(), order.end(), 0);
         do {
-            const auto factors = shear_factors<double>(rotation, order, 1e-6);
-            // The first of choices that are equal but for rounding, so that every machine takes the same.
-            if (!factors || !(largest_factor(*factors) < best_largest - 1e-9)) continue;
-            best_largest = largest_factor(*factors);
-            best = {sources, signs, order};
+            visit(ShearChoice{sources, signs, order});
         } while (std::next_permutation(order.begin(), order.end()));
     });
-    if (best.order.empty()) return std::nullopt;
-    const auto factors = shear_factors<Real>(before_signed_permutation(matrix, best.sources, best.signs),
-                                             best.order, kZeroThreshold);
-    OrthogonalBlock block = identity_of(n);
-    block.sources = best.sources;
-    block.signs = best.signs;
+}
+
+template <class S>
+std::optional<std::vector<Vector<S>>> shear_factors(const Matrix<S>& matrix, const ShearChoice& choice,
+                                                    const S& smallest_pivot) {
+    return shear_factors<S>(before_signed_permutation(matrix, choice.sources, choice.signs), choice.order,
+                            smallest_pivot);
+}
+
+BlockSteps steps_of(const Matrix<Real>& matrix, const ShearChoice& choice) {
+    const int n = static_cast<int>(matrix.rows());
+    const auto factors = shear_factors<Real>(matrix, choice, kZeroThreshold);
+    BlockSteps block = identity_of(n);
+    block.sources = choice.sources;
+    block.signs = choice.signs;
     for (int t = 0; t <= n; ++t) {
         Vector<Real> snapped = (*factors)[t];
         for (Real& factor : snapped)
             if (is_zero(factor)) factor = 0;
-        block.steps.push_back(Shear{best.order[t % n], snapped});
+        if (!snapped.isZero(0)) block.steps.push_back(Shear{choice.order[t % n], snapped});
     }
     return block;
+}
+
+std::optional<BlockSteps> by_shears(const Matrix<Real>& matrix) {
+    const Matrix<double> rough = matrix.cast<double>();
+    ShearChoice best;
+    double best_largest = 1;
+    for_each_shear_choice(static_cast<int>(matrix.rows()), [&](const ShearChoice& choice) {
+        const Matrix<double> rotation = before_signed_permutation(rough, choice.sources, choice.signs);
+        if (rotation.determinant() < 0) return;
+        const auto factors = shear_factors<double>(rotation, choice.order, 1e-6);
+        // The first of choices that are equal but for rounding, so that every machine takes the same.
+        if (!factors || !(largest_factor(*factors) < best_largest - 1e-9)) return;
+        best_largest = largest_factor(*factors);
+        best = choice;
+    });
+    if (best.order.empty()) return std::nullopt;
+    return steps_of(matrix, best);
+}
+
+/// Scales of the columns with which no row is sheared twice: the first shear is nothing where the minors of
+/// the rows and columns order[1] … order[t] are 1 for every t, and the determinant is.
+template <class S>
+std::vector<S> scales_for(const Matrix<S>& matrix, const ShearChoice& choice) {
+    const Matrix<S> rotation = before_signed_permutation(matrix, choice.sources, choice.signs);
+    const int n = static_cast<int>(matrix.rows());
+    std::vector<S> scales(n);
+    S minor_before = 1;
+    for (int t = 1; t <= n; ++t) {
+        Matrix<S> part(t, t);
+        for (int i = 0; i < t; ++i)
+            for (int j = 0; j < t; ++j)
+                part(i, j) = rotation(choice.order[(i + 1) % n], choice.order[(j + 1) % n]);
+        const S minor = part.determinant();
+        scales[choice.order[t % n]] = minor_before / minor;
+        minor_before = minor;
+    }
+    return scales;
+}
+
+template <class S>
+Matrix<S> with_scaled_columns(Matrix<S> matrix, const std::vector<S>& scales) {
+    for (int j = 0; j < matrix.cols(); ++j) matrix.col(j) *= scales[j];
+    return matrix;
+}
+
+/// n shears of n - 1 terms for columns of any length, none shorter than half or longer than twice.
+std::optional<ScaledBlocks> by_shears_up_to_scales(const Matrix<Real>& matrix) {
+    const Matrix<double> rough = matrix.cast<double>();
+    ShearChoice best;
+    double best_largest = 1;
+    for_each_shear_choice(static_cast<int>(matrix.rows()), [&](const ShearChoice& choice) {
+        const std::vector<double> scales = scales_for<double>(rough, choice);
+        if (!std::ranges::all_of(scales, [](double scale) { return 0.5 <= scale && scale <= 2; })) return;
+        const auto factors = shear_factors<double>(with_scaled_columns(rough, scales), choice, 1e-6);
+        if (!factors || !(largest_factor(*factors) < best_largest - 1e-9)) return;
+        best_largest = largest_factor(*factors);
+        best = choice;
+    });
+    if (best.order.empty()) return std::nullopt;
+    const std::vector<Real> scales = scales_for<Real>(matrix, best);
+    return ScaledBlocks{scales, {steps_of(with_scaled_columns(matrix, scales), best)}};
 }
 
 int nonzeros(const Matrix<Real>& matrix) { return static_cast<int>((matrix.array() != Real(0)).count()); }
@@ -233,17 +300,16 @@ struct StepMatrix {
 
 }  // namespace
 
-int instructions(const OrthogonalBlock& block) {
+int instructions(const BlockSteps& block) {
     int count = 0;
     for (const BlockStep& step : block.steps) count += std::visit(StepCost{}, step);
     return count;
 }
 
-OrthogonalBlock factorize_orthogonal(const Matrix<Real>& matrix) {
-    constexpr int kLargestForShears = 4;
+BlockSteps factorize_orthogonal(const Matrix<Real>& matrix) {
     const int n = static_cast<int>(matrix.rows());
     if (n == 1) {
-        OrthogonalBlock block = identity_of(1);
+        BlockSteps block = identity_of(1);
         block.signs = {matrix(0, 0) < 0 ? -1 : 1};
         return block;
     }
@@ -251,12 +317,42 @@ OrthogonalBlock factorize_orthogonal(const Matrix<Real>& matrix) {
     if (is_zero((matrix - matrix.transpose()).norm())) return by_reflection(matrix);
     if (n <= kLargestForShears)
         if (const auto block = by_shears(matrix)) return *block;
-    OrthogonalBlock block = identity_of(n);
+    return as_product(matrix);
+}
+
+BlockSteps as_product(const Matrix<Real>& matrix) {
+    BlockSteps block = identity_of(static_cast<int>(matrix.rows()));
     block.steps = {Product{matrix}};
     return block;
 }
 
-Matrix<Real> multiplied_out(const OrthogonalBlock& block) {
+ScaledBlocks factorize_up_to_scales(const std::vector<Matrix<Real>>& matrices) {
+    const int n = static_cast<int>(matrices.front().cols());
+    ScaledBlocks best;
+    best.scales.assign(n, 1);
+    for (const Matrix<Real>& matrix : matrices) best.blocks.push_back(factorize_orthogonal(matrix));
+    if (n == 1 || n > kLargestForShears) return best;
+    const auto total = [](const ScaledBlocks& some) {
+        int sum = 0;
+        for (const BlockSteps& block : some.blocks) sum += instructions(block);
+        return sum;
+    };
+    // The scales serve one matrix; the others take the most shears.
+    for (std::size_t served = 0; served < matrices.size(); ++served) {
+        const auto scaled = by_shears_up_to_scales(matrices[served]);
+        if (!scaled) continue;
+        ScaledBlocks some{scaled->scales, {}};
+        for (std::size_t k = 0; k < matrices.size(); ++k) {
+            const auto block = k == served ? std::optional(scaled->blocks[0])
+                                           : by_shears(with_scaled_columns(matrices[k], some.scales));
+            if (block) some.blocks.push_back(*block);
+        }
+        if (some.blocks.size() == matrices.size() && total(some) < total(best)) best = some;
+    }
+    return best;
+}
+
+Matrix<Real> multiplied_out(const BlockSteps& block) {
     Matrix<Real> result = Matrix<Real>::Identity(block.size, block.size);
     for (const BlockStep& step : block.steps) result = std::visit(StepMatrix{block.size}, step) * result;
     Matrix<Real> permuted(block.size, block.size);

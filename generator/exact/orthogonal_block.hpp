@@ -21,16 +21,16 @@ struct Reflection {
     Matrix<Real> back;
 };
 
-/// x -> matrix x.
+/// x -> matrix x, undone by the transpose.
 struct Product {
     Matrix<Real> matrix;
 };
 
 using BlockStep = std::variant<Shear, Reflection, Product>;
 
-/// An orthogonal matrix as steps in place, done from first to last, and a signed permutation at the end:
+/// A regular matrix as steps in place, done from first to last, and a signed permutation at the end:
 /// y_i = signs[i] x_{sources[i]}.
-struct OrthogonalBlock {
+struct BlockSteps {
     int size = 0;
     std::vector<BlockStep> steps;
     std::vector<int> sources;
@@ -38,7 +38,7 @@ struct OrthogonalBlock {
 };
 
 /// Instructions of the steps, after fusing.
-int instructions(const OrthogonalBlock& block);
+int instructions(const BlockSteps& block);
 
 /// The cheapest known factorization of an orthogonal n x n matrix:
 ///   1 x 1               nothing
@@ -50,9 +50,26 @@ int instructions(const OrthogonalBlock& block);
 ///                       integer mapping"
 ///   larger              the product, n^2
 /// No factor of a shear is larger than 1.
-OrthogonalBlock factorize_orthogonal(const Matrix<Real>& matrix);
+BlockSteps factorize_orthogonal(const Matrix<Real>& matrix);
+
+/// The matrix as one step.
+BlockSteps as_product(const Matrix<Real>& matrix);
+
+/// Matrices, each with its columns multiplied by `scales`.
+struct ScaledBlocks {
+    std::vector<Real> scales;
+    std::vector<BlockSteps> blocks;
+};
+
+/// Factorizes orthogonal n x n matrices X_1, X_2, … whose columns may have other lengths, shared by all: X_k
+/// S, S diagonal and positive. In X_1 T_1 X_1ᵀ, X_2 T_2 X_2ᵀ, … with T_k that commute with S nothing changes.
+/// Up to n = 4, n shears of n - 1 terms make X S for one S: n - 1 factors fewer than without; for n = 2, a
+/// turn by θ, they are tan θ and sin θ cos θ with S = (1/cos θ, cos θ). The cheapest of that for one X_k, the
+/// others with n
+/// + 1 shears, and of S = 1.
+ScaledBlocks factorize_up_to_scales(const std::vector<Matrix<Real>>& matrices);
 
 /// The matrix that the steps make.
-Matrix<Real> multiplied_out(const OrthogonalBlock& block);
+Matrix<Real> multiplied_out(const BlockSteps& block);
 
 }  // namespace zonal::exact

@@ -16,8 +16,18 @@ AnglePowers::AnglePowers(graph::Kernel& kernel, std::string name, Value cosine, 
 Value AnglePowers::twice_cosine(int m) {
     const auto known = twice_cosines_.find(m);
     if (known != twice_cosines_.end()) return known->second;
-    kernel_.graph.set_scope(name_);
-    const Value value = cosine(m) + cosine(m);
+    const auto made = [&] {
+        // 2c_2 without c_2, which is not always wanted.
+        if (m == 2) {
+            const Value d = twice_cosine(1), step = step_to(2);
+            kernel_.graph.set_scope(name_);
+            return d * step + Number(-2);
+        }
+        const Value c = cosine(m);
+        kernel_.graph.set_scope(name_);
+        return c + c;
+    };
+    const Value value = made();
     kernel_.graph.set_name(value.id, fmt::format("{}_2c{}", name_, m));
     return twice_cosines_[m] = value;
 }
@@ -29,6 +39,20 @@ Value AnglePowers::twice_sine(int m) {
     const Value value = sine(m) + sine(m);
     kernel_.graph.set_name(value.id, fmt::format("{}_2s{}", name_, m));
     return twice_sines_[m] = value;
+}
+
+// With c, s = √n (cos θ, sin θ): (2c/n) √n cos (m-1)θ - cos (m-2)θ = cos mθ and 2c cos (m-1)θ - √n cos (m-2)θ
+// = √n cos mθ, for sines alike. So steps by 2c/n and by 2c in turn keep even powers at norm 1 and odd ones at
+// √n. 1/n is 2 - n.
+Value AnglePowers::step_to(int m) {
+    const Value d = twice_cosine(1);
+    if (norm_defect_.graph == nullptr || m % 2 == 1) return d;
+    if (!step_to_even_) {
+        kernel_.graph.set_scope(name_);
+        step_to_even_ = norm_defect_ * d + d;
+        kernel_.graph.set_name(step_to_even_->id, fmt::format("{}_2c1_over_n", name_));
+    }
+    return *step_to_even_;
 }
 
 AnglePowers::Power AnglePowers::power(int m) {
@@ -43,11 +67,9 @@ AnglePowers::Power AnglePowers::power(int m) {
 AnglePowers::Power AnglePowers::make(int m) {
     // One product a line: see graph::Value.
     if (m == 2) {
-        const Value d = twice_cosine(1);
+        const Value d = step_to(2);
         kernel_.graph.set_scope(name_);
         const Value sine = d * powers_[1].sine;
-        if (squared_sine_.graph != nullptr)
-            return {powers_[1].cosine * powers_[1].cosine - squared_sine_, sine};
         return {d * powers_[1].cosine + Number(-1), sine};
     }
     if (chain_ == PowerChain::recurrence) {
@@ -60,7 +82,7 @@ AnglePowers::Power AnglePowers::make(int m) {
             const Value product = e * last.sine;
             return {cosine, m == 3 ? product + before.sine : product - before.sine};
         }
-        const Value d = twice_cosine(1);
+        const Value d = step_to(m);
         const Power last = power(m - 1), before = power(m - 2);
         kernel_.graph.set_scope(name_);
         const Value cosine = d * last.cosine - before.cosine;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "graph/kernel.hpp"
@@ -10,7 +11,7 @@ namespace zonal::kernels {
 /// How cos mθ and sin mθ are made.
 enum class PowerChain {
     /// c_m = 2c_1 c_{m-1} - c_{m-2}, or steps of two where every second one is wanted: two instructions a
-    /// power; an error of the base grows as m². For m <= 5.
+    /// power; an error of the base's norm grows as m². For m <= 5.
     recurrence,
     /// (c + is)^{a+b} = (c + is)^a (c + is)^b with a, b about m/2: four instructions a power; an error of the
     /// base
@@ -24,8 +25,9 @@ class AnglePowers {
     /// `only_odd_above_2`: chains step by two from m = 3 on.
     AnglePowers(graph::Kernel& kernel, std::string name, graph::Value cosine, graph::Value sine,
                 PowerChain chain, bool only_odd_above_2);
-    /// Tells sin²θ, where it is known: c_2 = c² - s² then loses less to a base whose norm is not 1.
-    void set_squared_sine(graph::Value value) { squared_sine_ = value; }
+    /// Tells 1 - c² - s² of a base whose norm is not 1. Even powers are then made of norm 1, and odd ones
+    /// keep the norm of the base, where it would grow in both.
+    void set_norm_defect(graph::Value value) { norm_defect_ = value; }
 
     /// m >= 1.
     graph::Value cosine(int m) { return power(m).cosine; }
@@ -39,14 +41,17 @@ class AnglePowers {
     };
     Power power(int m);
     Power make(int m);
+    /// 2c_1, over c² + s² for even powers.
+    graph::Value step_to(int m);
 
     graph::Kernel& kernel_;
     std::string name_;
     PowerChain chain_;
     bool only_odd_above_2_;
-    graph::Value squared_sine_;  ///< graph: null where it is not known
+    graph::Value norm_defect_;  ///< graph: null where the norm is 1
     std::map<int, Power> powers_;
     std::map<int, graph::Value> twice_cosines_, twice_sines_;
+    std::optional<graph::Value> step_to_even_;
 };
 
 }  // namespace zonal::kernels

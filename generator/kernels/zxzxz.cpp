@@ -22,25 +22,31 @@ namespace zonal::kernels {
 
 namespace {
 
-using exact::OrthogonalBlock;
+using exact::BlockSteps;
 using exact::QuarterTurnBlock;
 using exact::Real;
 using graph::Graph;
 using graph::Number;
 using graph::Value;
 
-/// Up to this order set-up counts: the powers of the angles take the fewest instructions, and β stays as it
-/// is given.
-constexpr int kLastLeanOrder = 6;
+/// Up to this order set-up counts: the powers of the angles take the fewest instructions.
+constexpr int kLastOrderOfRecurrence = 6;
 
-/// A block of X with its factorization and, for the scaled form, the row matched to each column.
+/// X with its columns multiplied by scales: u = Xᵀ p is `seen` times what the steps undone make of p, and the
+/// steps make X u of u times `shown`.
+struct ScaledSteps {
+    BlockSteps steps;
+    std::vector<Real> seen, shown;
+};
+
+/// A block of X with its cheapest factorization: as it is, by a product up to scales and by shears up to
+/// scales.
 struct Block {
     QuarterTurnBlock x;
-    OrthogonalBlock steps;
-    std::vector<int> matched_row;
+    BlockSteps steps;
+    ScaledSteps scaled, sheared;
 
     int size() const { return static_cast<int>(x.rows.size()); }
-    Real scale(int j) const { return abs(x.matrix(matched_row[j], j)); }
 };
 
 /// The matching of rows to columns whose entries have the largest product: by subsets of rows.
@@ -69,9 +75,40 @@ std::vector<int> best_matching(const exact::Matrix<Real>& matrix) {
     return row_of;
 }
 
+ScaledSteps unscaled(const BlockSteps& steps) {
+    return {steps, std::vector<Real>(steps.size, 1), std::vector<Real>(steps.size, 1)};
+}
+
+/// The product with a unit entry in every column (its transpose, which undoes it, has one in every row), if
+/// that is cheaper than the steps.
+ScaledSteps as_scaled_product(const exact::Matrix<Real>& x, const BlockSteps& steps) {
+    const int n = steps.size;
+    ScaledSteps scaled = unscaled(steps);
+    if (n * (n - 1) >= exact::instructions(steps)) return scaled;
+    const std::vector<int> matched_row = best_matching(x);
+    exact::Matrix<Real> product = x;
+    for (int j = 0; j < n; ++j) {
+        scaled.seen[j] = abs(x(matched_row[j], j));
+        product.col(j) /= scaled.seen[j];
+    }
+    scaled.shown = scaled.seen;
+    scaled.steps = exact::as_product(product);
+    return scaled;
+}
+
+ScaledSteps as_scaled_shears(const exact::Matrix<Real>& x) {
+    const exact::ScaledBlocks sheared = exact::factorize_up_to_scales({x});
+    ScaledSteps scaled{sheared.blocks[0], sheared.scales, sheared.scales};
+    for (Real& scale : scaled.shown) scale = 1 / scale;
+    return scaled;
+}
+
 /// J and K of one parity; K is empty for the even part of band 1.
 struct Part {
     Block j, k;
+    /// Steps up to scales that the turns of pairs (J, K) leave alone: of J and K where they are of one size,
+    /// else of K.
+    exact::ScaledBlocks shared;
 };
 
 struct Band {
@@ -88,8 +125,11 @@ const Band& band_blocks(int l) {
     for (const QuarterTurnBlock& x : exact::quarter_turn_blocks(l)) {
         Part& part = x.columns.front() % 2 == 0 ? band.even : band.odd;
         Block& block = x.columns.back() < 0 ? part.k : part.j;
-        block = {x, exact::factorize_orthogonal(x.matrix), best_matching(x.matrix)};
+        const BlockSteps steps = exact::factorize_orthogonal(x.matrix);
+        block = {x, steps, as_scaled_product(x.matrix, steps), as_scaled_shears(x.matrix)};
     }
+    band.even.shared = exact::factorize_up_to_scales({band.even.k.x.matrix});
+    band.odd.shared = exact::factorize_up_to_scales({band.odd.j.x.matrix, band.odd.k.x.matrix});
     return known.emplace(l, std::move(band)).first->second;
 }
 
@@ -130,15 +170,15 @@ struct StepBuilder {
 };
 
 /// y = M x.
-Values apply(Graph& graph, const OrthogonalBlock& block, Values x) {
+Values apply(Graph& graph, const BlockSteps& block, Values x) {
     for (const exact::BlockStep& step : block.steps) std::visit(StepBuilder{graph, x, false}, step);
     Values y;
     for (int i = 0; i < block.size; ++i) y.push_back(Number(block.signs[i]) * x[block.sources[i]]);
     return y;
 }
 
-/// x = Mᵀ y.
-Values apply_transposed(Graph& graph, const OrthogonalBlock& block, const Values& y) {
+/// x = M^-1 y.
+Values apply_inverse(Graph& graph, const BlockSteps& block, const Values& y) {
     Values x(block.size);
     for (int i = 0; i < block.size; ++i) x[block.sources[i]] = Number(block.signs[i]) * y[i];
     for (auto step = block.steps.rbegin(); step != block.steps.rend(); ++step)
@@ -199,7 +239,9 @@ class BandBuilder {
             case PartForm::update:
                 return update(part);
             case PartForm::scaled:
-                return transform_scaled(part);
+                return transform_scaled(part, part.j.scaled, part.k.scaled);
+            case PartForm::sheared:
+                return transform_scaled(part, part.j.sheared, part.k.sheared);
             case PartForm::reflect:
                 return reflect(part);
         }
@@ -207,9 +249,11 @@ class BandBuilder {
 
     void transform(const Part& part) {
         set_scope(stage_);
-        Values u = apply_transposed(graph_, part.j.steps, gather(part.j.x.rows));
-        Values v = apply_transposed(graph_, part.k.steps, gather(part.k.x.rows));
         const int skipped = part.j.size() - part.k.size();  // m = 0 has no partner
+        const BlockSteps& j_steps = skipped == 0 ? part.shared.blocks[0] : part.j.steps;
+        const BlockSteps& k_steps = skipped == 0 ? part.shared.blocks[1] : part.k.steps;
+        Values u = apply_inverse(graph_, j_steps, gather(part.j.x.rows));
+        Values v = apply_inverse(graph_, k_steps, gather(part.k.x.rows));
         for (int i = 0; i < part.k.size(); ++i) {
             const int m = part.j.x.columns[i + skipped];
             Value& u_m = u[i + skipped];
@@ -229,88 +273,64 @@ class BandBuilder {
                 v[i] = c * d - v[i];
             }
         }
-        scatter(part.j.x.rows, apply(graph_, part.j.steps, u));
-        scatter(part.k.x.rows, apply(graph_, part.k.steps, v));
+        scatter(part.j.x.rows, apply(graph_, j_steps, u));
+        scatter(part.k.x.rows, apply(graph_, k_steps, v));
     }
 
     /// p stays in the z-polar basis: its component along column m of J is seen, and changed.
     void update(const Part& part) {
         const Values p = gather(part.j.x.rows);
+        const BlockSteps& k_steps = part.shared.blocks[0];
         set_scope(stage_);
-        Values q = apply_transposed(graph_, part.k.steps, gather(part.k.x.rows));
+        Values q = apply_inverse(graph_, k_steps, gather(part.k.x.rows));
         Values turned = p;
         for (int k = 0; k < part.k.size(); ++k) {
             const int column = k + 1, h = part.j.x.columns[column] / 2;
+            const Real& scale = part.shared.scales[k];
             const Value c2 = scalars_.beta.twice_cosine(h);
             const Value s = scalars_.beta.sine(h), c = scalars_.beta.cosine(h);
             set_scope(stage_);
             std::vector<graph::Term> terms;
-            for (int i = 0; i < part.j.size(); ++i) terms.push_back({2 * part.j.x.matrix(i, column), p[i]});
+            for (int i = 0; i < part.j.size(); ++i)
+                terms.push_back({2 * part.j.x.matrix(i, column) / scale, p[i]});
             const Value twice_u = linear_combination(graph_, terms);
             const Value c2_q = c2 * q[k];
             const Value d = s * twice_u + c2_q;
             const Value change = s * d;
             for (int i = 0; i < part.j.size(); ++i)
-                turned[i] = turned[i] - part.j.x.matrix(i, column) * change;
+                turned[i] = turned[i] - (part.j.x.matrix(i, column) * scale) * change;
             q[k] = c * d - q[k];
         }
         scatter(part.j.x.rows, turned);
-        scatter(part.k.x.rows, apply(graph_, part.k.steps, q));
+        scatter(part.k.x.rows, apply(graph_, k_steps, q));
     }
 
-    /// Xᵀ of a block with a unit entry in every row: u_j / scale_j.
-    Values seen_scaled(const Block& block, bool is_scaled) {
-        const Values x = gather(block.x.rows);
-        if (!is_scaled) return apply_transposed(graph_, block.steps, x);
-        Values u;
-        for (int j = 0; j < block.size(); ++j) {
-            std::vector<graph::Term> terms;
-            for (int i = 0; i < block.size(); ++i)
-                terms.push_back({block.x.matrix(i, j) / block.scale(j), x[i]});
-            u.push_back(linear_combination(graph_, terms));
-        }
-        return u;
-    }
-    Values shown_scaled(const Block& block, bool is_scaled, const Values& u) {
-        if (!is_scaled) return apply(graph_, block.steps, u);
-        Values x;
-        for (int i = 0; i < block.size(); ++i) {
-            std::vector<graph::Term> terms;
-            for (int j = 0; j < block.size(); ++j)
-                terms.push_back({block.x.matrix(i, j) / block.scale(j), u[j]});
-            x.push_back(linear_combination(graph_, terms));
-        }
-        return x;
-    }
-    static bool gains_by_scale(const Block& block) {
-        return block.size() * (block.size() - 1) < exact::instructions(block.steps);
-    }
-
-    void transform_scaled(const Part& part) {
-        const bool scales_j = gains_by_scale(part.j), scales_k = gains_by_scale(part.k);
+    void transform_scaled(const Part& part, const ScaledSteps& j, const ScaledSteps& k) {
         const int skipped = part.j.size() - part.k.size();
         set_scope(stage_);
-        Values u = seen_scaled(part.j, scales_j), v = seen_scaled(part.k, scales_k);
-        if (skipped == 1 && scales_j) u[0] = (part.j.scale(0) * part.j.scale(0)) * u[0];
+        Values u = apply_inverse(graph_, j.steps, gather(part.j.x.rows));
+        Values v = apply_inverse(graph_, k.steps, gather(part.k.x.rows));
+        const auto times = [](const Real& factor, Value value) {
+            return abs(factor - 1) < exact::kZeroThreshold ? value : factor * value;
+        };
+        if (skipped == 1) u[0] = times(j.seen[0] * j.shown[0], u[0]);
         for (int i = 0; i < part.k.size(); ++i) {
-            const int m = part.j.x.columns[i + skipped];
-            const Real a = scales_j ? part.j.scale(i + skipped) : Real(1);
-            const Real b = scales_k ? part.k.scale(i) : Real(1);
+            const int at = i + skipped, m = part.j.x.columns[at];
             const Value c = scalars_.beta.cosine(m), s = scalars_.beta.sine(m);
             graph_.set_scope(fmt::format("b{}_{}_scalar", l_, stage_));
-            const Value c_a = (a * a) * c;
-            const Value s_ab = (a * b) * s;
-            const Value c_b = (b * b) * c;
+            const Value c_j = times(j.seen[at] * j.shown[at], c);
+            const Value s_jk = times(j.seen[at] * k.shown[i], s);
+            const Value s_kj = times(k.seen[i] * j.shown[at], s);
+            const Value c_k = times(k.seen[i] * k.shown[i], c);
             set_scope(stage_);
-            Value& u_m = u[i + skipped];
-            const Value s_v = s_ab * v[i];
-            const Value turned_u = c_a * u_m - s_v;
-            const Value c_v = c_b * v[i];
-            v[i] = s_ab * u_m + c_v;
-            u_m = turned_u;
+            const Value s_v = s_kj * v[i];
+            const Value turned_u = c_j * u[at] - s_v;
+            const Value c_v = c_k * v[i];
+            v[i] = s_jk * u[at] + c_v;
+            u[at] = turned_u;
         }
-        scatter(part.j.x.rows, shown_scaled(part.j, scales_j, u));
-        scatter(part.k.x.rows, shown_scaled(part.k, scales_k, v));
+        scatter(part.j.x.rows, apply(graph_, j.steps, u));
+        scatter(part.k.x.rows, apply(graph_, k.steps, v));
     }
 
     /// A plane rotation is a reflection after a change of sign; the signs of all K columns are those of its
@@ -370,40 +390,34 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
     const Value sin_a = named(y / sin_b, "a_s1");
     // Rz(-α) R = Ry(β) Rz(γ), whose middle row is (sin γ, cos γ, 0).
     const Value s0 = sin_a * rows[0][0];
-    Value sin_g = cos_a * rows[1][0] - s0;
+    const Value sin_g = named(cos_a * rows[1][0] - s0, "g_s1");
     const Value s1 = sin_a * rows[0][1];
-    Value cos_g = cos_a * rows[1][1] - s1;
-    // An error of the norm would grow in the powers: one Newton step, by the defect 1 - c² - s², which is
-    // rounded at its own size and not at that of 1.
+    const Value cos_g = named(cos_a * rows[1][1] - s1, "g_c1");
+    // Their norm is not 1 where R is not orthonormal, by noise or by rounding, and the error would grow in
+    // the powers. The defects 1 - c² - s² are rounded at their own size and not at that of 1. The powers of γ
+    // make do with the defect; β, whose half angles make reflections, takes a Newton step.
     const Value one{&graph, graph.constant(1)};
-    const Value one_c = one - cos_g * cos_g;
-    const Value defect = one_c - sin_g * sin_g;
-    const Value half_defect = Number(0.5) * defect;
-    sin_g = named(half_defect * sin_g + sin_g, "g_s1");
-    cos_g = named(half_defect * cos_g + cos_g, "g_c1");
-    // β alike: a norm that is not 1 tells that R is not orthonormal, by more than rounding. Above the lean
-    // orders its five instructions are few beside the rest.
-    const bool is_lean = order <= kLastLeanOrder;
+    const Value one_g = one - cos_g * cos_g;
+    const Value defect_g = named(one_g - sin_g * sin_g, "g_defect");
     Value cos_b = rows[2][2];
-    if (!is_lean) {
-        const Value one_b = one - cos_b * cos_b;
-        const Value defect_b = one_b - squared_sin_b;
-        const Value half_defect_b = Number(0.5) * defect_b;
-        sin_b = named(half_defect_b * sin_b + sin_b, "b_s1");
-        cos_b = named(half_defect_b * cos_b + cos_b, "b_c1");
-    }
-    const PowerChain chain = is_lean ? PowerChain::recurrence : PowerChain::product;
+    const Value one_b = one - cos_b * cos_b;
+    const Value half_defect_b = Number(0.5) * (one_b - squared_sin_b);
+    sin_b = named(half_defect_b * sin_b + sin_b, "b_s1");
+    cos_b = named(half_defect_b * cos_b + cos_b, "b_c1");
+    const PowerChain chain = order <= kLastOrderOfRecurrence ? PowerChain::recurrence : PowerChain::product;
     EulerScalars scalars{order, AnglePowers(kernel, "a", cos_a, sin_a, chain, false),
                          AnglePowers(kernel, "b", cos_b, sin_b, chain, true),
                          AnglePowers(kernel, "g", cos_g, sin_g, chain, false)};
-    if (is_lean) scalars.beta.set_squared_sine(squared_sin_b);
+    scalars.gamma.set_norm_defect(defect_g);
     return scalars;
 }
 
 std::vector<BandForms> band_forms() {
     std::vector<BandForms> all;
-    for (const PartForm even : {PartForm::transform, PartForm::update, PartForm::reflect, PartForm::scaled})
-        for (const PartForm odd : {PartForm::transform, PartForm::scaled}) all.push_back({even, odd});
+    for (const PartForm even :
+         {PartForm::transform, PartForm::update, PartForm::reflect, PartForm::scaled, PartForm::sheared})
+        for (const PartForm odd : {PartForm::transform, PartForm::scaled, PartForm::sheared})
+            all.push_back({even, odd});
     return all;
 }
 

@@ -9,10 +9,11 @@ namespace zonal::kernels {
 
 /// How one part of a band (the orders m of one parity) is turned by Y(β) = X Z(β) Xᵀ.
 enum class PartForm {
-    transform,  ///< Xᵀ, pairs turned by mβ, X: each block in its cheapest factorization
+    transform,  ///< Xᵀ, pairs turned by mβ, X: blocks in their cheapest factorization
     update,     ///< even m: the block that holds y-m = 0 is only updated, pair by pair
-    scaled,     ///< as transform, blocks scaled to a unit entry per row, scales in the multipliers of β
-    reflect,    ///< even m: one reflection whose vectors are made once per rotation
+    scaled,     ///< as transform, blocks as products with unit entries, their scales in the multipliers of β
+    sheared,  ///< as transform, blocks as shears of columns of any length, the rest in the multipliers of β
+    reflect,  ///< even m: one reflection whose vectors are made once per rotation
 };
 
 /// How a band is turned: the forms of its even and odd part.

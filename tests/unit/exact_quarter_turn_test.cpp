@@ -57,7 +57,7 @@ TEST(QuarterTurn, block_of_band_5_has_the_entries_of_its_closed_form) {
 TEST(OrthogonalBlock, steps_make_the_matrix_again) {
     for (int l = 1; l < 20; ++l) {
         for (const QuarterTurnBlock& block : quarter_turn_blocks(l)) {
-            const OrthogonalBlock steps = factorize_orthogonal(block.matrix);
+            const BlockSteps steps = factorize_orthogonal(block.matrix);
             EXPECT_LT((multiplied_out(steps) - block.matrix).norm(), kTolerance) << "band " << l;
         }
     }
@@ -77,7 +77,7 @@ TEST(OrthogonalBlock, costs_less_than_the_product) {
 TEST(OrthogonalBlock, no_shear_has_a_factor_above_1) {
     for (int l = 1; l < 20; ++l) {
         for (const QuarterTurnBlock& block : quarter_turn_blocks(l)) {
-            const OrthogonalBlock steps = factorize_orthogonal(block.matrix);
+            const BlockSteps steps = factorize_orthogonal(block.matrix);
             for (const BlockStep& step : steps.steps) {
                 if (const auto* shear = std::get_if<Shear>(&step)) {
                     EXPECT_LE(shear->factors.cwiseAbs().maxCoeff(), Real(1)) << "band " << l;
