@@ -46,14 +46,14 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 104 mul 39 add 210 fma 0 other;
 //             per extra vector 48 mul 0 add 119 fma 0 other
-// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double),
-//             for det R = +1; excess 2.56
-//           rotate relative error 9.3e-07 (float), 2.4e-15 (double),
-//             for det R = +1; excess 2.56
+// bound   : rotate_channels relative error 1.1e-06 (float), 2.7e-15 (double),
+//             for det R = +1; excess 1.50
+//           rotate relative error 1.1e-06 (float), 2.7e-15 (double),
+//             for det R = +1; excess 1.50
 //           rotate_polynomial relative error 3.0e-07 (float), 6.5e-16 (double),
 //             for det R = +1 or -1; excess 2.23
-//           apply relative error 9.3e-07 (float), 2.4e-15 (double),
-//             for det R = +1; excess 2.56
+//           apply relative error 1.1e-06 (float), 2.8e-15 (double),
+//             for det R = +1; excess 1.50
 //           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double),
 //             for det R = +1 or -1; excess 1.61
 //           blocks relative error 2.1e-07 (float), 4.5e-16 (double),
@@ -120,13 +120,13 @@ void zonal_order4_rotate_channels(float R[9], float f[16], out float o[16]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
     float b2_g_1 = euler_7 * f[7];
     float b2_g_2 = euler_5 * f[5] - b2_g_1;
     float b2_g_3 = euler_5 * f[7];
@@ -139,8 +139,8 @@ void zonal_order4_rotate_channels(float R[9], float f[16], out float o[16]) {
     float b2_g_6 = g_s2 * f[4] - b2_g_5;
     float b2_g_7 = g_s2 * f[8];
     float b2_g_8 = g_c2 * f[4] + b2_g_7;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     float b2_e_1 = b2_e_scalar_2 * b2_g_6;
     float b2_e_2 = b2_e_scalar_1 * f[6] + b2_e_1;
@@ -149,8 +149,8 @@ void zonal_order4_rotate_channels(float R[9], float f[16], out float o[16]) {
     float b2_e_5 = -b2_e_scalar_2 * b2_e_3 + b2_g_6;
     float b2_e_6 = -b2_e_scalar_3 * b2_e_3 + b2_g_2;
     float b2_o_1 = b_c1 * b2_g_8;
-    float b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    float b2_o_3 = euler_12 * b2_g_8;
+    float b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    float b2_o_3 = euler_11 * b2_g_8;
     float b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     float b2_a_1 = a_c1 * b2_e_6;
     float b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
@@ -182,8 +182,8 @@ void zonal_order4_rotate_channels(float R[9], float f[16], out float o[16]) {
     float b3_g_10 = g_s3 * f[9] - b3_g_9;
     float b3_g_11 = g_s3 * f[15];
     float b3_g_12 = g_c3 * f[9] + b3_g_11;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     float b3_e_1 = b3_e_scalar_2 * b3_g_12;
     float b3_e_2 = b3_e_scalar_1 * b3_g_4 + b3_e_1;
     float b3_e_3 = -b2_e_scalar_3 * b3_g_8 + b3_e_2;
@@ -194,7 +194,7 @@ void zonal_order4_rotate_channels(float R[9], float f[16], out float o[16]) {
     float b3_o_2 = 0.242061466 * b3_o_1 + b3_g_2;
     float b3_o_3 = -0.774596691 * f[12] + b3_g_6;
     float b3_o_4 = 0.484122932 * b3_o_3 + f[12];
-    float b3_o_scalar_1 = 0.816496611 * euler_12;
+    float b3_o_scalar_1 = 0.816496611 * euler_11;
     float b3_o_5 = b_c1 * b3_o_1;
     float b3_o_6 = b3_o_scalar_1 * b3_o_3 + b3_o_5;
     float b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -202,7 +202,7 @@ void zonal_order4_rotate_channels(float R[9], float f[16], out float o[16]) {
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_2 = 0.816496611 * b_s3;
     float b3_o_scalar_3 = 1.22474492 * b_s3;
     float b3_o_9 = b_1 * b3_o_2;
@@ -270,13 +270,13 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
     vec3 b2_g_1 = euler_7 * f[7];
     vec3 b2_g_2 = euler_5 * f[5] - b2_g_1;
     vec3 b2_g_3 = euler_5 * f[7];
@@ -289,8 +289,8 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
     vec3 b2_g_6 = g_s2 * f[4] - b2_g_5;
     vec3 b2_g_7 = g_s2 * f[8];
     vec3 b2_g_8 = g_c2 * f[4] + b2_g_7;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     vec3 b2_e_1 = b2_e_scalar_2 * b2_g_6;
     vec3 b2_e_2 = b2_e_scalar_1 * f[6] + b2_e_1;
@@ -299,8 +299,8 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
     vec3 b2_e_5 = -b2_e_scalar_2 * b2_e_3 + b2_g_6;
     vec3 b2_e_6 = -b2_e_scalar_3 * b2_e_3 + b2_g_2;
     vec3 b2_o_1 = b_c1 * b2_g_8;
-    vec3 b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    vec3 b2_o_3 = euler_12 * b2_g_8;
+    vec3 b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    vec3 b2_o_3 = euler_11 * b2_g_8;
     vec3 b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     vec3 b2_a_1 = a_c1 * b2_e_6;
     vec3 b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
@@ -332,8 +332,8 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
     vec3 b3_g_10 = g_s3 * f[9] - b3_g_9;
     vec3 b3_g_11 = g_s3 * f[15];
     vec3 b3_g_12 = g_c3 * f[9] + b3_g_11;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     vec3 b3_e_1 = b3_e_scalar_2 * b3_g_12;
     vec3 b3_e_2 = b3_e_scalar_1 * b3_g_4 + b3_e_1;
     vec3 b3_e_3 = -b2_e_scalar_3 * b3_g_8 + b3_e_2;
@@ -344,7 +344,7 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
     vec3 b3_o_2 = 0.242061466 * b3_o_1 + b3_g_2;
     vec3 b3_o_3 = -0.774596691 * f[12] + b3_g_6;
     vec3 b3_o_4 = 0.484122932 * b3_o_3 + f[12];
-    float b3_o_scalar_1 = 0.816496611 * euler_12;
+    float b3_o_scalar_1 = 0.816496611 * euler_11;
     vec3 b3_o_5 = b_c1 * b3_o_1;
     vec3 b3_o_6 = b3_o_scalar_1 * b3_o_3 + b3_o_5;
     vec3 b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -352,7 +352,7 @@ void zonal_order4_rotate_channels(float R[9], vec3 f[16], out vec3 o[16]) {
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_2 = 0.816496611 * b_s3;
     float b3_o_scalar_3 = 1.22474492 * b_s3;
     vec3 b3_o_9 = b_1 * b3_o_2;
@@ -433,13 +433,13 @@ void zonal_order4_rotate(float R[9], float f[16], out float o[16]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
     float b2_g_1 = euler_7 * f[7];
     float b2_g_2 = euler_5 * f[5] - b2_g_1;
     float b2_g_3 = euler_5 * f[7];
@@ -454,15 +454,15 @@ void zonal_order4_rotate(float R[9], float f[16], out float o[16]) {
     float b2_g_8 = g_c2 * f[4] + b2_g_7;
     float b_2c1 = b_c1 + b_c1;
     float b2_e_1 = 1.73205078 * f[6] + b2_g_6;
-    float b2_e_2 = euler_12 * b2_e_1;
+    float b2_e_2 = euler_11 * b2_e_1;
     float b2_e_3 = b_2c1 * b2_g_2 + b2_e_2;
-    float b2_e_4 = euler_12 * b2_e_3;
+    float b2_e_4 = euler_11 * b2_e_3;
     float b2_e_5 = -0.866025388 * b2_e_4 + f[6];
     float b2_e_6 = -0.5 * b2_e_4 + b2_g_6;
     float b2_e_7 = -b_c1 * b2_e_3 + b2_g_2;
     float b2_o_1 = b_c1 * b2_g_8;
-    float b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    float b2_o_3 = euler_12 * b2_g_8;
+    float b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    float b2_o_3 = euler_11 * b2_g_8;
     float b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     float b2_a_1 = a_c1 * b2_e_7;
     float b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
@@ -496,9 +496,9 @@ void zonal_order4_rotate(float R[9], float f[16], out float o[16]) {
     float b3_g_12 = g_c3 * f[9] + b3_g_11;
     float b3_e_1 = 1.22474492 * b3_g_12;
     float b3_e_2 = 1.58113885 * b3_g_4 + b3_e_1;
-    float b3_e_3 = euler_12 * b3_e_2;
+    float b3_e_3 = euler_11 * b3_e_2;
     float b3_e_4 = b_2c1 * b3_g_8 - b3_e_3;
-    float b3_e_5 = euler_12 * b3_e_4;
+    float b3_e_5 = euler_11 * b3_e_4;
     float b3_e_6 = 0.790569425 * b3_e_5 + b3_g_4;
     float b3_e_7 = 0.612372458 * b3_e_5 + b3_g_12;
     float b3_e_8 = -b_c1 * b3_e_4 + b3_g_8;
@@ -508,12 +508,12 @@ void zonal_order4_rotate(float R[9], float f[16], out float o[16]) {
     float b3_o_4 = 0.592927039 * b3_o_3 + f[12];
     float b3_o_5 = -0.309487343 * b3_o_4 + b3_o_3;
     float b3_o_6 = b_c1 * b3_o_1;
-    float b3_o_7 = euler_12 * b3_o_5 + b3_o_6;
-    float b3_o_8 = euler_12 * b3_o_1;
+    float b3_o_7 = euler_11 * b3_o_5 + b3_o_6;
+    float b3_o_8 = euler_11 * b3_o_1;
     float b3_o_9 = b_c1 * b3_o_5 - b3_o_8;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_10 = b_1 * b3_o_2;
     float b3_o_11 = b_s3 * b3_o_4 - b3_o_10;
     float b3_o_12 = b_s3 * b3_o_2;
@@ -930,34 +930,34 @@ void zonal_order4_prepare(float R[9], out float scalars[34]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
     float g_1 = euler_7 + euler_7;
     float g_2 = g_defect * g_1 + g_1;
     float g_s2 = euler_5 * g_2;
     float g_c2 = euler_7 * g_2 - 1.0;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     float a_2c1 = a_c1 + a_c1;
     float a_s2 = a_s1 * a_2c1;
     float a_c2 = a_c1 * a_2c1 - 1.0;
     float g_c3 = -g_1 * g_c2 + euler_7;
     float g_s3 = -g_1 * g_s2 + euler_5;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     float b3_o_scalar_1 = 0.9375 * b_c1;
-    float b3_o_scalar_2 = 0.765465558 * euler_12;
+    float b3_o_scalar_2 = 0.765465558 * euler_11;
     float b3_o_scalar_3 = 0.625 * b_c1;
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_4 = 0.9375 * b_1;
     float b3_o_scalar_5 = 0.765465558 * b_s3;
     float b3_o_scalar_6 = 0.625 * b_1;
@@ -980,7 +980,7 @@ void zonal_order4_prepare(float R[9], out float scalars[34]) {
     scalars[14] = b2_e_scalar_1;
     scalars[15] = b2_e_scalar_3;
     scalars[16] = b_c1;
-    scalars[17] = euler_12;
+    scalars[17] = euler_11;
     scalars[18] = a_c1;
     scalars[19] = a_s1;
     scalars[20] = a_c2;

@@ -5,11 +5,11 @@
 //           generator/tables/band03.json  sha256:1469a1105632666f
 //           generator/tables/mirrored/band04.json  sha256:c5c037823ac6aa26
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : rotate_channels 81 mul 5 add 119 fma 3 other;
+// cost    : rotate_channels 81 mul 5 add 122 fma 3 other;
 //             per extra vector 53 mul 0 add 96 fma 0 other
-//           rotate 67 mul 5 add 123 fma 3 other;
+//           rotate 67 mul 5 add 126 fma 3 other;
 //             per extra vector 60 mul 0 add 100 fma 0 other
-//           prepare 33 mul 5 add 23 fma 3 other;
+//           prepare 33 mul 5 add 26 fma 3 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           apply 53 mul 0 add 96 fma 0 other;
 //             per extra vector 53 mul 0 add 96 fma 0 other
@@ -46,11 +46,11 @@
 //           stable::rotate_zhf 204 mul 69 add 387 fma 0 other;
 //             per extra vector 99 mul 0 add 255 fma 0 other
 // bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double),
-//             for det R = +1; excess 4.21
-//           rotate relative error 1.7e-06 (float), 4.5e-15 (double),
-//             for det R = +1; excess 4.21
-//           apply relative error 1.7e-06 (float), 4.4e-15 (double),
-//             for det R = +1; excess 4.21
+//             for det R = +1; excess 2.00
+//           rotate relative error 1.7e-06 (float), 4.4e-15 (double),
+//             for det R = +1; excess 2.00
+//           apply relative error 1.8e-06 (float), 4.5e-15 (double),
+//             for det R = +1; excess 2.00
 //           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double),
 //             for det R = +1 or -1; excess 2.13
 //           blocks relative error 2.8e-07 (float), 4.9e-16 (double),
@@ -117,13 +117,15 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     float b2_g_1 = euler_7 * f[7];
     float b2_g_2 = euler_5 * f[5] - b2_g_1;
     float b2_g_3 = euler_5 * f[7];
@@ -136,8 +138,8 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b2_g_6 = g_s2 * f[4] - b2_g_5;
     float b2_g_7 = g_s2 * f[8];
     float b2_g_8 = g_c2 * f[4] + b2_g_7;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     float b2_e_1 = b2_e_scalar_2 * b2_g_6;
     float b2_e_2 = b2_e_scalar_1 * f[6] + b2_e_1;
@@ -146,15 +148,16 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b2_e_5 = -b2_e_scalar_2 * b2_e_3 + b2_g_6;
     float b2_e_6 = -b2_e_scalar_3 * b2_e_3 + b2_g_2;
     float b2_o_1 = b_c1 * b2_g_8;
-    float b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    float b2_o_3 = euler_12 * b2_g_8;
+    float b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    float b2_o_3 = euler_11 * b2_g_8;
     float b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     float b2_a_1 = a_c1 * b2_e_6;
     float b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
     float b2_a_3 = a_s1 * b2_e_6;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     float b2_a_4 = a_c2 * b2_e_5;
     float b2_a_5 = a_s2 * b2_o_2 - b2_a_4;
     float b2_a_6 = a_s2 * b2_e_5;
@@ -179,8 +182,8 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b3_g_10 = g_s3 * f[9] - b3_g_9;
     float b3_g_11 = g_s3 * f[15];
     float b3_g_12 = g_c3 * f[9] + b3_g_11;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     float b3_e_1 = b3_e_scalar_2 * b3_g_12;
     float b3_e_2 = b3_e_scalar_1 * b3_g_4 + b3_e_1;
     float b3_e_3 = -b2_e_scalar_3 * b3_g_8 + b3_e_2;
@@ -191,7 +194,7 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b3_o_2 = 0.242061466 * b3_o_1 + b3_g_2;
     float b3_o_3 = -0.774596691 * f[12] + b3_g_6;
     float b3_o_4 = 0.484122932 * b3_o_3 + f[12];
-    float b3_o_scalar_1 = 0.816496611 * euler_12;
+    float b3_o_scalar_1 = 0.816496611 * euler_11;
     float b3_o_5 = b_c1 * b3_o_1;
     float b3_o_6 = b3_o_scalar_1 * b3_o_3 + b3_o_5;
     float b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -199,7 +202,7 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_2 = 0.816496611 * b_s3;
     float b3_o_scalar_3 = 1.22474492 * b_s3;
     float b3_o_9 = b_1 * b3_o_2;
@@ -250,8 +253,8 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b4_g_14 = g_4 * f[16] - b4_g_13;
     float b4_g_15 = g_4 * f[24];
     float b4_g_16 = g_3 * f[16] + b4_g_15;
-    float b4_e_scalar_1 = 0.790569425 * euler_12;
-    float b4_e_scalar_2 = 0.935414374 * euler_12;
+    float b4_e_scalar_1 = 0.790569425 * euler_11;
+    float b4_e_scalar_2 = 0.935414374 * euler_11;
     float b4_e_scalar_3 = 0.5 * b_c1;
     float b4_e_scalar_4 = 1.32287562 * b_c1;
     float b4_e_1 = b2_e_scalar_2 * b4_g_6;
@@ -264,7 +267,7 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b4_e_8 = b4_e_scalar_2 * b4_e_5 + b4_g_14;
     float b4_e_9 = -b4_e_scalar_3 * b4_e_5 + b4_g_2;
     float b4_e_10 = b4_e_scalar_4 * b4_e_5 + b4_g_10;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_scalar_5 = 1.045825 * b_s2;
     float b4_e_scalar_6 = 0.935414374 * b_s2;
@@ -285,8 +288,8 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b4_o_2 = 0.330718905 * b4_o_1 + b4_g_8;
     float b4_o_3 = -0.881917119 * b4_g_12 + b4_g_4;
     float b4_o_4 = 0.496078372 * b4_o_3 + b4_g_12;
-    float b4_o_scalar_1 = 1.24721909 * euler_12;
-    float b4_o_scalar_2 = 0.801783741 * euler_12;
+    float b4_o_scalar_1 = 1.24721909 * euler_11;
+    float b4_o_scalar_2 = 0.801783741 * euler_11;
     float b4_o_5 = b_c1 * b4_o_1;
     float b4_o_6 = b4_o_scalar_2 * b4_o_3 + b4_o_5;
     float b4_o_7 = b4_o_scalar_1 * b4_o_1;
@@ -310,8 +313,8 @@ void zonal_order5_rotate_channels(float R[9], float f[25], out float o[25]) {
     float b4_a_7 = a_1 * b4_e_20;
     float b4_a_8 = a_2 * b4_e_20;
     float b4_a_9 = a_1 * b4_o_15 - b4_a_8;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     float b4_a_10 = a_3 * b4_e_18;
     float b4_a_11 = a_4 * b4_e_18;
     float b4_a_12 = a_3 * b4_o_14 - b4_a_11;
@@ -363,13 +366,15 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     vec3 b2_g_1 = euler_7 * f[7];
     vec3 b2_g_2 = euler_5 * f[5] - b2_g_1;
     vec3 b2_g_3 = euler_5 * f[7];
@@ -382,8 +387,8 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b2_g_6 = g_s2 * f[4] - b2_g_5;
     vec3 b2_g_7 = g_s2 * f[8];
     vec3 b2_g_8 = g_c2 * f[4] + b2_g_7;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     vec3 b2_e_1 = b2_e_scalar_2 * b2_g_6;
     vec3 b2_e_2 = b2_e_scalar_1 * f[6] + b2_e_1;
@@ -392,15 +397,16 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b2_e_5 = -b2_e_scalar_2 * b2_e_3 + b2_g_6;
     vec3 b2_e_6 = -b2_e_scalar_3 * b2_e_3 + b2_g_2;
     vec3 b2_o_1 = b_c1 * b2_g_8;
-    vec3 b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    vec3 b2_o_3 = euler_12 * b2_g_8;
+    vec3 b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    vec3 b2_o_3 = euler_11 * b2_g_8;
     vec3 b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     vec3 b2_a_1 = a_c1 * b2_e_6;
     vec3 b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
     vec3 b2_a_3 = a_s1 * b2_e_6;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     vec3 b2_a_4 = a_c2 * b2_e_5;
     vec3 b2_a_5 = a_s2 * b2_o_2 - b2_a_4;
     vec3 b2_a_6 = a_s2 * b2_e_5;
@@ -425,8 +431,8 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b3_g_10 = g_s3 * f[9] - b3_g_9;
     vec3 b3_g_11 = g_s3 * f[15];
     vec3 b3_g_12 = g_c3 * f[9] + b3_g_11;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     vec3 b3_e_1 = b3_e_scalar_2 * b3_g_12;
     vec3 b3_e_2 = b3_e_scalar_1 * b3_g_4 + b3_e_1;
     vec3 b3_e_3 = -b2_e_scalar_3 * b3_g_8 + b3_e_2;
@@ -437,7 +443,7 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b3_o_2 = 0.242061466 * b3_o_1 + b3_g_2;
     vec3 b3_o_3 = -0.774596691 * f[12] + b3_g_6;
     vec3 b3_o_4 = 0.484122932 * b3_o_3 + f[12];
-    float b3_o_scalar_1 = 0.816496611 * euler_12;
+    float b3_o_scalar_1 = 0.816496611 * euler_11;
     vec3 b3_o_5 = b_c1 * b3_o_1;
     vec3 b3_o_6 = b3_o_scalar_1 * b3_o_3 + b3_o_5;
     vec3 b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -445,7 +451,7 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_2 = 0.816496611 * b_s3;
     float b3_o_scalar_3 = 1.22474492 * b_s3;
     vec3 b3_o_9 = b_1 * b3_o_2;
@@ -496,8 +502,8 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b4_g_14 = g_4 * f[16] - b4_g_13;
     vec3 b4_g_15 = g_4 * f[24];
     vec3 b4_g_16 = g_3 * f[16] + b4_g_15;
-    float b4_e_scalar_1 = 0.790569425 * euler_12;
-    float b4_e_scalar_2 = 0.935414374 * euler_12;
+    float b4_e_scalar_1 = 0.790569425 * euler_11;
+    float b4_e_scalar_2 = 0.935414374 * euler_11;
     float b4_e_scalar_3 = 0.5 * b_c1;
     float b4_e_scalar_4 = 1.32287562 * b_c1;
     vec3 b4_e_1 = b2_e_scalar_2 * b4_g_6;
@@ -510,7 +516,7 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b4_e_8 = b4_e_scalar_2 * b4_e_5 + b4_g_14;
     vec3 b4_e_9 = -b4_e_scalar_3 * b4_e_5 + b4_g_2;
     vec3 b4_e_10 = b4_e_scalar_4 * b4_e_5 + b4_g_10;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_scalar_5 = 1.045825 * b_s2;
     float b4_e_scalar_6 = 0.935414374 * b_s2;
@@ -531,8 +537,8 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b4_o_2 = 0.330718905 * b4_o_1 + b4_g_8;
     vec3 b4_o_3 = -0.881917119 * b4_g_12 + b4_g_4;
     vec3 b4_o_4 = 0.496078372 * b4_o_3 + b4_g_12;
-    float b4_o_scalar_1 = 1.24721909 * euler_12;
-    float b4_o_scalar_2 = 0.801783741 * euler_12;
+    float b4_o_scalar_1 = 1.24721909 * euler_11;
+    float b4_o_scalar_2 = 0.801783741 * euler_11;
     vec3 b4_o_5 = b_c1 * b4_o_1;
     vec3 b4_o_6 = b4_o_scalar_2 * b4_o_3 + b4_o_5;
     vec3 b4_o_7 = b4_o_scalar_1 * b4_o_1;
@@ -556,8 +562,8 @@ void zonal_order5_rotate_channels(float R[9], vec3 f[25], out vec3 o[25]) {
     vec3 b4_a_7 = a_1 * b4_e_20;
     vec3 b4_a_8 = a_2 * b4_e_20;
     vec3 b4_a_9 = a_1 * b4_o_15 - b4_a_8;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     vec3 b4_a_10 = a_3 * b4_e_18;
     vec3 b4_a_11 = a_4 * b4_e_18;
     vec3 b4_a_12 = a_3 * b4_o_14 - b4_a_11;
@@ -622,13 +628,15 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     float b2_g_1 = euler_7 * f[7];
     float b2_g_2 = euler_5 * f[5] - b2_g_1;
     float b2_g_3 = euler_5 * f[7];
@@ -643,22 +651,23 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float b2_g_8 = g_c2 * f[4] + b2_g_7;
     float b_2c1 = b_c1 + b_c1;
     float b2_e_1 = 1.73205078 * f[6] + b2_g_6;
-    float b2_e_2 = euler_12 * b2_e_1;
+    float b2_e_2 = euler_11 * b2_e_1;
     float b2_e_3 = b_2c1 * b2_g_2 + b2_e_2;
-    float b2_e_4 = euler_12 * b2_e_3;
+    float b2_e_4 = euler_11 * b2_e_3;
     float b2_e_5 = -0.866025388 * b2_e_4 + f[6];
     float b2_e_6 = -0.5 * b2_e_4 + b2_g_6;
     float b2_e_7 = -b_c1 * b2_e_3 + b2_g_2;
     float b2_o_1 = b_c1 * b2_g_8;
-    float b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    float b2_o_3 = euler_12 * b2_g_8;
+    float b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    float b2_o_3 = euler_11 * b2_g_8;
     float b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     float b2_a_1 = a_c1 * b2_e_7;
     float b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
     float b2_a_3 = a_s1 * b2_e_7;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     float b2_a_4 = a_c2 * b2_e_6;
     float b2_a_5 = a_s2 * b2_o_2 - b2_a_4;
     float b2_a_6 = a_s2 * b2_e_6;
@@ -685,9 +694,9 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float b3_g_12 = g_c3 * f[9] + b3_g_11;
     float b3_e_1 = 1.22474492 * b3_g_12;
     float b3_e_2 = 1.58113885 * b3_g_4 + b3_e_1;
-    float b3_e_3 = euler_12 * b3_e_2;
+    float b3_e_3 = euler_11 * b3_e_2;
     float b3_e_4 = b_2c1 * b3_g_8 - b3_e_3;
-    float b3_e_5 = euler_12 * b3_e_4;
+    float b3_e_5 = euler_11 * b3_e_4;
     float b3_e_6 = 0.790569425 * b3_e_5 + b3_g_4;
     float b3_e_7 = 0.612372458 * b3_e_5 + b3_g_12;
     float b3_e_8 = -b_c1 * b3_e_4 + b3_g_8;
@@ -697,12 +706,12 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float b3_o_4 = 0.592927039 * b3_o_3 + f[12];
     float b3_o_5 = -0.309487343 * b3_o_4 + b3_o_3;
     float b3_o_6 = b_c1 * b3_o_1;
-    float b3_o_7 = euler_12 * b3_o_5 + b3_o_6;
-    float b3_o_8 = euler_12 * b3_o_1;
+    float b3_o_7 = euler_11 * b3_o_5 + b3_o_6;
+    float b3_o_8 = euler_11 * b3_o_1;
     float b3_o_9 = b_c1 * b3_o_5 - b3_o_8;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_10 = b_1 * b3_o_2;
     float b3_o_11 = b_s3 * b3_o_4 - b3_o_10;
     float b3_o_12 = b_s3 * b3_o_2;
@@ -757,14 +766,14 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float b4_e_3 = 1.06904495 * b4_g_6;
     float b4_e_4 = 1.19522858 * f[20] - b4_e_3;
     float b4_e_5 = -1.41421354 * b4_g_14 + b4_e_4;
-    float b4_e_6 = euler_12 * b4_e_5;
+    float b4_e_6 = euler_11 * b4_e_5;
     float b4_e_7 = b_2c1 * b4_e_1 - b4_e_6;
-    float b4_e_8 = euler_12 * b4_e_7;
+    float b4_e_8 = euler_11 * b4_e_7;
     float b4_e_9 = 0.522912502 * b4_e_8 + f[20];
     float b4_e_10 = -0.467707187 * b4_e_8 + b4_g_6;
     float b4_e_11 = -0.618718445 * b4_e_8 + b4_g_14;
     float b4_e_12 = -b_c1 * b4_e_7 + b4_e_1;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_13 = 1.23743689 * b4_g_6;
     float b4_e_14 = 1.38349652 * f[20] + b4_e_13;
@@ -784,8 +793,8 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float b4_o_4 = 0.618718445 * b4_o_3 + b4_g_12;
     float b4_o_5 = -0.320365876 * b4_o_4 + b4_o_3;
     float b4_o_6 = b_c1 * b4_o_1;
-    float b4_o_7 = euler_12 * b4_o_5 + b4_o_6;
-    float b4_o_8 = euler_12 * b4_o_1;
+    float b4_o_7 = euler_11 * b4_o_5 + b4_o_6;
+    float b4_o_8 = euler_11 * b4_o_1;
     float b4_o_9 = b_c1 * b4_o_5 - b4_o_8;
     float b4_o_10 = b_1 * b4_o_2;
     float b4_o_11 = b_s3 * b4_o_4 + b4_o_10;
@@ -805,8 +814,8 @@ void zonal_order5_rotate(float R[9], float f[25], out float o[25]) {
     float b4_a_7 = a_1 * b4_e_24;
     float b4_a_8 = a_2 * b4_e_24;
     float b4_a_9 = a_1 * b4_o_17 - b4_a_8;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     float b4_a_10 = a_3 * b4_e_21;
     float b4_a_11 = a_4 * b4_e_21;
     float b4_a_12 = a_3 * b4_o_15 - b4_a_11;
@@ -858,34 +867,37 @@ void zonal_order5_prepare(float R[9], out float scalars[53]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     float g_1 = euler_7 + euler_7;
     float g_2 = g_defect * g_1 + g_1;
     float g_s2 = euler_5 * g_2;
     float g_c2 = euler_7 * g_2 - 1.0;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     float g_c3 = -g_1 * g_c2 + euler_7;
     float g_s3 = -g_1 * g_s2 + euler_5;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     float b3_o_scalar_1 = 0.9375 * b_c1;
-    float b3_o_scalar_2 = 0.765465558 * euler_12;
+    float b3_o_scalar_2 = 0.765465558 * euler_11;
     float b3_o_scalar_3 = 0.625 * b_c1;
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_4 = 0.9375 * b_1;
     float b3_o_scalar_5 = 0.765465558 * b_s3;
     float b3_o_scalar_6 = 0.625 * b_1;
@@ -893,11 +905,11 @@ void zonal_order5_prepare(float R[9], out float scalars[53]) {
     float a_2 = -a_2c1 * a_s2 + a_s1;
     float g_3 = g_2 * g_c3 + g_c2;
     float g_4 = g_2 * g_s3 + g_s2;
-    float b4_e_scalar_1 = 0.790569425 * euler_12;
-    float b4_e_scalar_2 = 0.935414374 * euler_12;
+    float b4_e_scalar_1 = 0.790569425 * euler_11;
+    float b4_e_scalar_2 = 0.935414374 * euler_11;
     float b4_e_scalar_3 = 0.5 * b_c1;
     float b4_e_scalar_4 = 1.32287562 * b_c1;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_scalar_5 = 1.045825 * b_s2;
     float b4_e_scalar_6 = 0.935414374 * b_s2;
@@ -905,13 +917,13 @@ void zonal_order5_prepare(float R[9], out float scalars[53]) {
     float b4_e_scalar_8 = 1.32287562 * b_c2;
     float b4_e_scalar_9 = 0.5 * b_c2;
     float b4_o_scalar_1 = 0.875 * b_c1;
-    float b4_o_scalar_2 = 0.701560736 * euler_12;
+    float b4_o_scalar_2 = 0.701560736 * euler_11;
     float b4_o_scalar_3 = 0.5625 * b_c1;
     float b4_o_scalar_4 = 0.875 * b_1;
     float b4_o_scalar_5 = 0.701560736 * b_s3;
     float b4_o_scalar_6 = 0.5625 * b_1;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     scalars[0] = r11;
     scalars[1] = r10;
     scalars[2] = r12;
@@ -929,7 +941,7 @@ void zonal_order5_prepare(float R[9], out float scalars[53]) {
     scalars[14] = b2_e_scalar_1;
     scalars[15] = b2_e_scalar_3;
     scalars[16] = b_c1;
-    scalars[17] = euler_12;
+    scalars[17] = euler_11;
     scalars[18] = a_c1;
     scalars[19] = a_s1;
     scalars[20] = a_c2;

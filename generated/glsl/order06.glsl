@@ -6,11 +6,11 @@
 //           generator/tables/mirrored/band04.json  sha256:c5c037823ac6aa26
 //           generator/tables/mirrored/band05.json  sha256:47bcb3beb1577a2c
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : rotate_channels 124 mul 5 add 191 fma 3 other;
+// cost    : rotate_channels 124 mul 5 add 194 fma 3 other;
 //             per extra vector 81 mul 0 add 162 fma 0 other
-//           rotate 99 mul 5 add 199 fma 3 other;
+//           rotate 99 mul 5 add 202 fma 3 other;
 //             per extra vector 92 mul 0 add 170 fma 0 other
-//           prepare 48 mul 5 add 29 fma 3 other;
+//           prepare 48 mul 5 add 32 fma 3 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           apply 81 mul 0 add 162 fma 0 other;
 //             per extra vector 81 mul 0 add 162 fma 0 other
@@ -46,12 +46,12 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 358 mul 96 add 696 fma 0 other;
 //             per extra vector 177 mul 0 add 500 fma 0 other
-// bound   : rotate_channels relative error 3.2e-06 (float), 7.2e-15 (double),
-//             for det R = +1; excess 6.43
-//           rotate relative error 3.2e-06 (float), 7.2e-15 (double),
-//             for det R = +1; excess 6.43
-//           apply relative error 3.2e-06 (float), 7.2e-15 (double),
-//             for det R = +1; excess 6.43
+// bound   : rotate_channels relative error 2.8e-06 (float), 6.8e-15 (double),
+//             for det R = +1; excess 2.50
+//           rotate relative error 2.8e-06 (float), 6.8e-15 (double),
+//             for det R = +1; excess 2.50
+//           apply relative error 2.8e-06 (float), 6.8e-15 (double),
+//             for det R = +1; excess 2.50
 //           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 2.66
 //           blocks relative error 3.1e-07 (float), 6.3e-16 (double),
@@ -118,13 +118,15 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     float b2_g_1 = euler_7 * f[7];
     float b2_g_2 = euler_5 * f[5] - b2_g_1;
     float b2_g_3 = euler_5 * f[7];
@@ -137,8 +139,8 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b2_g_6 = g_s2 * f[4] - b2_g_5;
     float b2_g_7 = g_s2 * f[8];
     float b2_g_8 = g_c2 * f[4] + b2_g_7;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     float b2_e_1 = b2_e_scalar_2 * b2_g_6;
     float b2_e_2 = b2_e_scalar_1 * f[6] + b2_e_1;
@@ -147,15 +149,16 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b2_e_5 = -b2_e_scalar_2 * b2_e_3 + b2_g_6;
     float b2_e_6 = -b2_e_scalar_3 * b2_e_3 + b2_g_2;
     float b2_o_1 = b_c1 * b2_g_8;
-    float b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    float b2_o_3 = euler_12 * b2_g_8;
+    float b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    float b2_o_3 = euler_11 * b2_g_8;
     float b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     float b2_a_1 = a_c1 * b2_e_6;
     float b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
     float b2_a_3 = a_s1 * b2_e_6;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     float b2_a_4 = a_c2 * b2_e_5;
     float b2_a_5 = a_s2 * b2_o_2 - b2_a_4;
     float b2_a_6 = a_s2 * b2_e_5;
@@ -180,8 +183,8 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b3_g_10 = g_s3 * f[9] - b3_g_9;
     float b3_g_11 = g_s3 * f[15];
     float b3_g_12 = g_c3 * f[9] + b3_g_11;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     float b3_e_1 = b3_e_scalar_2 * b3_g_12;
     float b3_e_2 = b3_e_scalar_1 * b3_g_4 + b3_e_1;
     float b3_e_3 = -b2_e_scalar_3 * b3_g_8 + b3_e_2;
@@ -192,7 +195,7 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b3_o_2 = 0.242061466 * b3_o_1 + b3_g_2;
     float b3_o_3 = -0.774596691 * f[12] + b3_g_6;
     float b3_o_4 = 0.484122932 * b3_o_3 + f[12];
-    float b3_o_scalar_1 = 0.816496611 * euler_12;
+    float b3_o_scalar_1 = 0.816496611 * euler_11;
     float b3_o_5 = b_c1 * b3_o_1;
     float b3_o_6 = b3_o_scalar_1 * b3_o_3 + b3_o_5;
     float b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -200,7 +203,7 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_2 = 0.816496611 * b_s3;
     float b3_o_scalar_3 = 1.22474492 * b_s3;
     float b3_o_9 = b_1 * b3_o_2;
@@ -251,8 +254,8 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b4_g_14 = g_4 * f[16] - b4_g_13;
     float b4_g_15 = g_4 * f[24];
     float b4_g_16 = g_3 * f[16] + b4_g_15;
-    float b4_e_scalar_1 = 0.790569425 * euler_12;
-    float b4_e_scalar_2 = 0.935414374 * euler_12;
+    float b4_e_scalar_1 = 0.790569425 * euler_11;
+    float b4_e_scalar_2 = 0.935414374 * euler_11;
     float b4_e_scalar_3 = 0.5 * b_c1;
     float b4_e_scalar_4 = 1.32287562 * b_c1;
     float b4_e_1 = b2_e_scalar_2 * b4_g_6;
@@ -265,7 +268,7 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b4_e_8 = b4_e_scalar_2 * b4_e_5 + b4_g_14;
     float b4_e_9 = -b4_e_scalar_3 * b4_e_5 + b4_g_2;
     float b4_e_10 = b4_e_scalar_4 * b4_e_5 + b4_g_10;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_scalar_5 = 1.045825 * b_s2;
     float b4_e_scalar_6 = 0.935414374 * b_s2;
@@ -286,8 +289,8 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b4_o_2 = 0.330718905 * b4_o_1 + b4_g_8;
     float b4_o_3 = -0.881917119 * b4_g_12 + b4_g_4;
     float b4_o_4 = 0.496078372 * b4_o_3 + b4_g_12;
-    float b4_o_scalar_1 = 1.24721909 * euler_12;
-    float b4_o_scalar_2 = 0.801783741 * euler_12;
+    float b4_o_scalar_1 = 1.24721909 * euler_11;
+    float b4_o_scalar_2 = 0.801783741 * euler_11;
     float b4_o_5 = b_c1 * b4_o_1;
     float b4_o_6 = b4_o_scalar_2 * b4_o_3 + b4_o_5;
     float b4_o_7 = b4_o_scalar_1 * b4_o_1;
@@ -311,8 +314,8 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b4_a_7 = a_1 * b4_e_20;
     float b4_a_8 = a_2 * b4_e_20;
     float b4_a_9 = a_1 * b4_o_15 - b4_a_8;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     float b4_a_10 = a_3 * b4_e_18;
     float b4_a_11 = a_4 * b4_e_18;
     float b4_a_12 = a_3 * b4_o_14 - b4_a_11;
@@ -351,8 +354,8 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b5_g_18 = g_6 * f[25] - b5_g_17;
     float b5_g_19 = g_6 * f[35];
     float b5_g_20 = g_5 * f[25] + b5_g_19;
-    float b5_e_scalar_1 = 0.433012694 * euler_12;
-    float b5_e_scalar_2 = 0.968245864 * euler_12;
+    float b5_e_scalar_1 = 0.433012694 * euler_11;
+    float b5_e_scalar_2 = 0.968245864 * euler_11;
     float b5_e_scalar_3 = 0.707106769 * b_c1;
     float b5_e_scalar_4 = 1.22474492 * b_c1;
     float b5_e_1 = b5_e_scalar_1 * b5_g_12;
@@ -391,7 +394,7 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b5_o_9 = 0.384900182 * b5_g_6 + b5_o_8;
     float b5_o_10 = 0.975900054 * b5_g_6 + f[30];
     float b5_o_11 = 0.281718075 * b5_g_14 + b5_o_10;
-    float b5_o_scalar_1 = 0.661437809 * euler_12;
+    float b5_o_scalar_1 = 0.661437809 * euler_11;
     float b5_o_scalar_2 = 0.4375 * b_c1;
     float b5_o_12 = b_c1 * b5_o_3;
     float b5_o_13 = b5_o_scalar_1 * b5_o_7 - b5_o_12;
@@ -404,7 +407,7 @@ void zonal_order6_rotate_channels(float R[9], float f[36], out float o[36]) {
     float b5_o_18 = b5_o_scalar_3 * b5_o_4;
     float b5_o_19 = b5_o_scalar_4 * b5_o_9 + b5_o_18;
     float b_2 = b_2c2 * b_1 + b_c1;
-    float b_3 = -b_2c2 * b_s3 + euler_12;
+    float b_3 = -b_2c2 * b_s3 + euler_11;
     float b5_o_scalar_5 = 0.701560736 * b_3;
     float b5_o_scalar_6 = 0.4921875 * b_2;
     float b5_o_20 = b_2 * b5_o_5;
@@ -490,13 +493,15 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     vec3 b2_g_1 = euler_7 * f[7];
     vec3 b2_g_2 = euler_5 * f[5] - b2_g_1;
     vec3 b2_g_3 = euler_5 * f[7];
@@ -509,8 +514,8 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b2_g_6 = g_s2 * f[4] - b2_g_5;
     vec3 b2_g_7 = g_s2 * f[8];
     vec3 b2_g_8 = g_c2 * f[4] + b2_g_7;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     vec3 b2_e_1 = b2_e_scalar_2 * b2_g_6;
     vec3 b2_e_2 = b2_e_scalar_1 * f[6] + b2_e_1;
@@ -519,15 +524,16 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b2_e_5 = -b2_e_scalar_2 * b2_e_3 + b2_g_6;
     vec3 b2_e_6 = -b2_e_scalar_3 * b2_e_3 + b2_g_2;
     vec3 b2_o_1 = b_c1 * b2_g_8;
-    vec3 b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    vec3 b2_o_3 = euler_12 * b2_g_8;
+    vec3 b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    vec3 b2_o_3 = euler_11 * b2_g_8;
     vec3 b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     vec3 b2_a_1 = a_c1 * b2_e_6;
     vec3 b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
     vec3 b2_a_3 = a_s1 * b2_e_6;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     vec3 b2_a_4 = a_c2 * b2_e_5;
     vec3 b2_a_5 = a_s2 * b2_o_2 - b2_a_4;
     vec3 b2_a_6 = a_s2 * b2_e_5;
@@ -552,8 +558,8 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b3_g_10 = g_s3 * f[9] - b3_g_9;
     vec3 b3_g_11 = g_s3 * f[15];
     vec3 b3_g_12 = g_c3 * f[9] + b3_g_11;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     vec3 b3_e_1 = b3_e_scalar_2 * b3_g_12;
     vec3 b3_e_2 = b3_e_scalar_1 * b3_g_4 + b3_e_1;
     vec3 b3_e_3 = -b2_e_scalar_3 * b3_g_8 + b3_e_2;
@@ -564,7 +570,7 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b3_o_2 = 0.242061466 * b3_o_1 + b3_g_2;
     vec3 b3_o_3 = -0.774596691 * f[12] + b3_g_6;
     vec3 b3_o_4 = 0.484122932 * b3_o_3 + f[12];
-    float b3_o_scalar_1 = 0.816496611 * euler_12;
+    float b3_o_scalar_1 = 0.816496611 * euler_11;
     vec3 b3_o_5 = b_c1 * b3_o_1;
     vec3 b3_o_6 = b3_o_scalar_1 * b3_o_3 + b3_o_5;
     vec3 b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -572,7 +578,7 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_2 = 0.816496611 * b_s3;
     float b3_o_scalar_3 = 1.22474492 * b_s3;
     vec3 b3_o_9 = b_1 * b3_o_2;
@@ -623,8 +629,8 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b4_g_14 = g_4 * f[16] - b4_g_13;
     vec3 b4_g_15 = g_4 * f[24];
     vec3 b4_g_16 = g_3 * f[16] + b4_g_15;
-    float b4_e_scalar_1 = 0.790569425 * euler_12;
-    float b4_e_scalar_2 = 0.935414374 * euler_12;
+    float b4_e_scalar_1 = 0.790569425 * euler_11;
+    float b4_e_scalar_2 = 0.935414374 * euler_11;
     float b4_e_scalar_3 = 0.5 * b_c1;
     float b4_e_scalar_4 = 1.32287562 * b_c1;
     vec3 b4_e_1 = b2_e_scalar_2 * b4_g_6;
@@ -637,7 +643,7 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b4_e_8 = b4_e_scalar_2 * b4_e_5 + b4_g_14;
     vec3 b4_e_9 = -b4_e_scalar_3 * b4_e_5 + b4_g_2;
     vec3 b4_e_10 = b4_e_scalar_4 * b4_e_5 + b4_g_10;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_scalar_5 = 1.045825 * b_s2;
     float b4_e_scalar_6 = 0.935414374 * b_s2;
@@ -658,8 +664,8 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b4_o_2 = 0.330718905 * b4_o_1 + b4_g_8;
     vec3 b4_o_3 = -0.881917119 * b4_g_12 + b4_g_4;
     vec3 b4_o_4 = 0.496078372 * b4_o_3 + b4_g_12;
-    float b4_o_scalar_1 = 1.24721909 * euler_12;
-    float b4_o_scalar_2 = 0.801783741 * euler_12;
+    float b4_o_scalar_1 = 1.24721909 * euler_11;
+    float b4_o_scalar_2 = 0.801783741 * euler_11;
     vec3 b4_o_5 = b_c1 * b4_o_1;
     vec3 b4_o_6 = b4_o_scalar_2 * b4_o_3 + b4_o_5;
     vec3 b4_o_7 = b4_o_scalar_1 * b4_o_1;
@@ -683,8 +689,8 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b4_a_7 = a_1 * b4_e_20;
     vec3 b4_a_8 = a_2 * b4_e_20;
     vec3 b4_a_9 = a_1 * b4_o_15 - b4_a_8;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     vec3 b4_a_10 = a_3 * b4_e_18;
     vec3 b4_a_11 = a_4 * b4_e_18;
     vec3 b4_a_12 = a_3 * b4_o_14 - b4_a_11;
@@ -723,8 +729,8 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b5_g_18 = g_6 * f[25] - b5_g_17;
     vec3 b5_g_19 = g_6 * f[35];
     vec3 b5_g_20 = g_5 * f[25] + b5_g_19;
-    float b5_e_scalar_1 = 0.433012694 * euler_12;
-    float b5_e_scalar_2 = 0.968245864 * euler_12;
+    float b5_e_scalar_1 = 0.433012694 * euler_11;
+    float b5_e_scalar_2 = 0.968245864 * euler_11;
     float b5_e_scalar_3 = 0.707106769 * b_c1;
     float b5_e_scalar_4 = 1.22474492 * b_c1;
     vec3 b5_e_1 = b5_e_scalar_1 * b5_g_12;
@@ -763,7 +769,7 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b5_o_9 = 0.384900182 * b5_g_6 + b5_o_8;
     vec3 b5_o_10 = 0.975900054 * b5_g_6 + f[30];
     vec3 b5_o_11 = 0.281718075 * b5_g_14 + b5_o_10;
-    float b5_o_scalar_1 = 0.661437809 * euler_12;
+    float b5_o_scalar_1 = 0.661437809 * euler_11;
     float b5_o_scalar_2 = 0.4375 * b_c1;
     vec3 b5_o_12 = b_c1 * b5_o_3;
     vec3 b5_o_13 = b5_o_scalar_1 * b5_o_7 - b5_o_12;
@@ -776,7 +782,7 @@ void zonal_order6_rotate_channels(float R[9], vec3 f[36], out vec3 o[36]) {
     vec3 b5_o_18 = b5_o_scalar_3 * b5_o_4;
     vec3 b5_o_19 = b5_o_scalar_4 * b5_o_9 + b5_o_18;
     float b_2 = b_2c2 * b_1 + b_c1;
-    float b_3 = -b_2c2 * b_s3 + euler_12;
+    float b_3 = -b_2c2 * b_s3 + euler_11;
     float b5_o_scalar_5 = 0.701560736 * b_3;
     float b5_o_scalar_6 = 0.4921875 * b_2;
     vec3 b5_o_20 = b_2 * b5_o_5;
@@ -875,13 +881,15 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     float b2_g_1 = euler_7 * f[7];
     float b2_g_2 = euler_5 * f[5] - b2_g_1;
     float b2_g_3 = euler_5 * f[7];
@@ -896,22 +904,23 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b2_g_8 = g_c2 * f[4] + b2_g_7;
     float b_2c1 = b_c1 + b_c1;
     float b2_e_1 = 1.73205078 * f[6] + b2_g_6;
-    float b2_e_2 = euler_12 * b2_e_1;
+    float b2_e_2 = euler_11 * b2_e_1;
     float b2_e_3 = b_2c1 * b2_g_2 + b2_e_2;
-    float b2_e_4 = euler_12 * b2_e_3;
+    float b2_e_4 = euler_11 * b2_e_3;
     float b2_e_5 = -0.866025388 * b2_e_4 + f[6];
     float b2_e_6 = -0.5 * b2_e_4 + b2_g_6;
     float b2_e_7 = -b_c1 * b2_e_3 + b2_g_2;
     float b2_o_1 = b_c1 * b2_g_8;
-    float b2_o_2 = euler_12 * b2_g_4 - b2_o_1;
-    float b2_o_3 = euler_12 * b2_g_8;
+    float b2_o_2 = euler_11 * b2_g_4 - b2_o_1;
+    float b2_o_3 = euler_11 * b2_g_8;
     float b2_o_4 = b_c1 * b2_g_4 + b2_o_3;
     float b2_a_1 = a_c1 * b2_e_7;
     float b2_a_2 = a_s1 * b2_o_4 - b2_a_1;
     float b2_a_3 = a_s1 * b2_e_7;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     float b2_a_4 = a_c2 * b2_e_6;
     float b2_a_5 = a_s2 * b2_o_2 - b2_a_4;
     float b2_a_6 = a_s2 * b2_e_6;
@@ -938,9 +947,9 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b3_g_12 = g_c3 * f[9] + b3_g_11;
     float b3_e_1 = 1.22474492 * b3_g_12;
     float b3_e_2 = 1.58113885 * b3_g_4 + b3_e_1;
-    float b3_e_3 = euler_12 * b3_e_2;
+    float b3_e_3 = euler_11 * b3_e_2;
     float b3_e_4 = b_2c1 * b3_g_8 - b3_e_3;
-    float b3_e_5 = euler_12 * b3_e_4;
+    float b3_e_5 = euler_11 * b3_e_4;
     float b3_e_6 = 0.790569425 * b3_e_5 + b3_g_4;
     float b3_e_7 = 0.612372458 * b3_e_5 + b3_g_12;
     float b3_e_8 = -b_c1 * b3_e_4 + b3_g_8;
@@ -950,12 +959,12 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b3_o_4 = 0.592927039 * b3_o_3 + f[12];
     float b3_o_5 = -0.309487343 * b3_o_4 + b3_o_3;
     float b3_o_6 = b_c1 * b3_o_1;
-    float b3_o_7 = euler_12 * b3_o_5 + b3_o_6;
-    float b3_o_8 = euler_12 * b3_o_1;
+    float b3_o_7 = euler_11 * b3_o_5 + b3_o_6;
+    float b3_o_8 = euler_11 * b3_o_1;
     float b3_o_9 = b_c1 * b3_o_5 - b3_o_8;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_10 = b_1 * b3_o_2;
     float b3_o_11 = b_s3 * b3_o_4 - b3_o_10;
     float b3_o_12 = b_s3 * b3_o_2;
@@ -1010,14 +1019,14 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b4_e_3 = 1.06904495 * b4_g_6;
     float b4_e_4 = 1.19522858 * f[20] - b4_e_3;
     float b4_e_5 = -1.41421354 * b4_g_14 + b4_e_4;
-    float b4_e_6 = euler_12 * b4_e_5;
+    float b4_e_6 = euler_11 * b4_e_5;
     float b4_e_7 = b_2c1 * b4_e_1 - b4_e_6;
-    float b4_e_8 = euler_12 * b4_e_7;
+    float b4_e_8 = euler_11 * b4_e_7;
     float b4_e_9 = 0.522912502 * b4_e_8 + f[20];
     float b4_e_10 = -0.467707187 * b4_e_8 + b4_g_6;
     float b4_e_11 = -0.618718445 * b4_e_8 + b4_g_14;
     float b4_e_12 = -b_c1 * b4_e_7 + b4_e_1;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_13 = 1.23743689 * b4_g_6;
     float b4_e_14 = 1.38349652 * f[20] + b4_e_13;
@@ -1037,8 +1046,8 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b4_o_4 = 0.618718445 * b4_o_3 + b4_g_12;
     float b4_o_5 = -0.320365876 * b4_o_4 + b4_o_3;
     float b4_o_6 = b_c1 * b4_o_1;
-    float b4_o_7 = euler_12 * b4_o_5 + b4_o_6;
-    float b4_o_8 = euler_12 * b4_o_1;
+    float b4_o_7 = euler_11 * b4_o_5 + b4_o_6;
+    float b4_o_8 = euler_11 * b4_o_1;
     float b4_o_9 = b_c1 * b4_o_5 - b4_o_8;
     float b4_o_10 = b_1 * b4_o_2;
     float b4_o_11 = b_s3 * b4_o_4 + b4_o_10;
@@ -1058,8 +1067,8 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b4_a_7 = a_1 * b4_e_24;
     float b4_a_8 = a_2 * b4_e_24;
     float b4_a_9 = a_1 * b4_o_17 - b4_a_8;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     float b4_a_10 = a_3 * b4_e_21;
     float b4_a_11 = a_4 * b4_e_21;
     float b4_a_12 = a_3 * b4_o_15 - b4_a_11;
@@ -1103,9 +1112,9 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b5_e_3 = 0.707106769 * b5_g_12;
     float b5_e_4 = 1.52752519 * b5_g_4 - b5_e_3;
     float b5_e_5 = -1.58113885 * b5_g_20 + b5_e_4;
-    float b5_e_6 = euler_12 * b5_e_5;
+    float b5_e_6 = euler_11 * b5_e_5;
     float b5_e_7 = b_2c1 * b5_e_1 + b5_e_6;
-    float b5_e_8 = euler_12 * b5_e_7;
+    float b5_e_8 = euler_11 * b5_e_7;
     float b5_e_9 = -0.572821975 * b5_e_8 + b5_g_4;
     float b5_e_10 = 0.265165031 * b5_e_8 + b5_g_12;
     float b5_e_11 = 0.592927039 * b5_e_8 + b5_g_20;
@@ -1136,15 +1145,15 @@ void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float b5_o_12 = 0.160094142 * b5_o_9 + b5_o_7;
     float b5_o_13 = -0.570724964 * b5_o_11 + b5_o_12;
     float b5_o_14 = b_c1 * b5_o_3;
-    float b5_o_15 = euler_12 * b5_o_9 - b5_o_14;
-    float b5_o_16 = euler_12 * b5_o_3;
+    float b5_o_15 = euler_11 * b5_o_9 - b5_o_14;
+    float b5_o_16 = euler_11 * b5_o_3;
     float b5_o_17 = b_c1 * b5_o_9 + b5_o_16;
     float b5_o_18 = b_1 * b5_o_4;
     float b5_o_19 = b_s3 * b5_o_13 - b5_o_18;
     float b5_o_20 = b_s3 * b5_o_4;
     float b5_o_21 = b_1 * b5_o_13 + b5_o_20;
     float b_2 = b_2c2 * b_1 + b_c1;
-    float b_3 = -b_2c2 * b_s3 + euler_12;
+    float b_3 = -b_2c2 * b_s3 + euler_11;
     float b5_o_22 = b_2 * b5_o_5;
     float b5_o_23 = b_3 * b5_o_11 + b5_o_22;
     float b5_o_24 = b_3 * b5_o_5;
@@ -1231,34 +1240,37 @@ void zonal_order6_prepare(float R[9], out float scalars[74]) {
     float euler_5 = r00 * a_s1 - euler_4;
     float euler_6 = r11 * a_c1;
     float euler_7 = r01 * a_s1 - euler_6;
-    float euler_8 = -euler_7 * euler_7 + 1.0;
-    float g_defect = -euler_5 * euler_5 + euler_8;
-    float euler_9 = -r22 * r22 + 1.0;
-    float euler_10 = euler_3 - euler_9;
-    float euler_11 = 0.5 * euler_10;
-    float euler_12 = -b_s1 * euler_11 + b_s1;
-    float b_c1 = -r22 * euler_11 + r22;
+    float euler_8 = -r22 * r22 + 1.0;
+    float euler_9 = euler_3 - euler_8;
+    float euler_10 = 0.5 * euler_9;
+    float euler_11 = -b_s1 * euler_10 + b_s1;
+    float b_c1 = -r22 * euler_10 + r22;
+    float euler_12 = -euler_7 * euler_7 + 1.0;
+    float g_defect = -euler_5 * euler_5 + euler_12;
+    float euler_13 = -a_c1 * a_c1 + 1.0;
+    float a_defect = -a_s1 * a_s1 + euler_13;
     float g_1 = euler_7 + euler_7;
     float g_2 = g_defect * g_1 + g_1;
     float g_s2 = euler_5 * g_2;
     float g_c2 = euler_7 * g_2 - 1.0;
-    float b2_e_scalar_1 = 1.22474492 * euler_12;
-    float b2_e_scalar_2 = 0.707106769 * euler_12;
+    float b2_e_scalar_1 = 1.22474492 * euler_11;
+    float b2_e_scalar_2 = 0.707106769 * euler_11;
     float b2_e_scalar_3 = 1.41421354 * b_c1;
     float a_2c1 = a_c1 + a_c1;
-    float a_s2 = a_s1 * a_2c1;
-    float a_c2 = a_c1 * a_2c1 - 1.0;
+    float a_2c1_over_n = a_defect * a_2c1 + a_2c1;
+    float a_s2 = a_s1 * a_2c1_over_n;
+    float a_c2 = a_c1 * a_2c1_over_n - 1.0;
     float g_c3 = -g_1 * g_c2 + euler_7;
     float g_s3 = -g_1 * g_s2 + euler_5;
-    float b3_e_scalar_1 = 1.11803401 * euler_12;
-    float b3_e_scalar_2 = 0.866025388 * euler_12;
+    float b3_e_scalar_1 = 1.11803401 * euler_11;
+    float b3_e_scalar_2 = 0.866025388 * euler_11;
     float b3_o_scalar_1 = 0.9375 * b_c1;
-    float b3_o_scalar_2 = 0.765465558 * euler_12;
+    float b3_o_scalar_2 = 0.765465558 * euler_11;
     float b3_o_scalar_3 = 0.625 * b_c1;
     float b_2c1 = b_c1 + b_c1;
     float b_2c2 = b_2c1 * b_2c1 - 2.0;
     float b_1 = -b_c1 * b_2c2 + b_c1;
-    float b_s3 = euler_12 * b_2c2 + euler_12;
+    float b_s3 = euler_11 * b_2c2 + euler_11;
     float b3_o_scalar_4 = 0.9375 * b_1;
     float b3_o_scalar_5 = 0.765465558 * b_s3;
     float b3_o_scalar_6 = 0.625 * b_1;
@@ -1266,11 +1278,11 @@ void zonal_order6_prepare(float R[9], out float scalars[74]) {
     float a_2 = -a_2c1 * a_s2 + a_s1;
     float g_3 = g_2 * g_c3 + g_c2;
     float g_4 = g_2 * g_s3 + g_s2;
-    float b4_e_scalar_1 = 0.790569425 * euler_12;
-    float b4_e_scalar_2 = 0.935414374 * euler_12;
+    float b4_e_scalar_1 = 0.790569425 * euler_11;
+    float b4_e_scalar_2 = 0.935414374 * euler_11;
     float b4_e_scalar_3 = 0.5 * b_c1;
     float b4_e_scalar_4 = 1.32287562 * b_c1;
-    float b_s2 = euler_12 * b_2c1;
+    float b_s2 = euler_11 * b_2c1;
     float b_c2 = b_c1 * b_2c1 - 1.0;
     float b4_e_scalar_5 = 1.045825 * b_s2;
     float b4_e_scalar_6 = 0.935414374 * b_s2;
@@ -1278,17 +1290,17 @@ void zonal_order6_prepare(float R[9], out float scalars[74]) {
     float b4_e_scalar_8 = 1.32287562 * b_c2;
     float b4_e_scalar_9 = 0.5 * b_c2;
     float b4_o_scalar_1 = 0.875 * b_c1;
-    float b4_o_scalar_2 = 0.701560736 * euler_12;
+    float b4_o_scalar_2 = 0.701560736 * euler_11;
     float b4_o_scalar_3 = 0.5625 * b_c1;
     float b4_o_scalar_4 = 0.875 * b_1;
     float b4_o_scalar_5 = 0.701560736 * b_s3;
     float b4_o_scalar_6 = 0.5625 * b_1;
-    float a_3 = a_2c1 * a_1 + a_c2;
-    float a_4 = a_2c1 * a_2 + a_s2;
+    float a_3 = a_2c1_over_n * a_1 + a_c2;
+    float a_4 = a_2c1_over_n * a_2 + a_s2;
     float g_5 = -g_1 * g_3 + g_c3;
     float g_6 = -g_1 * g_4 + g_s3;
-    float b5_e_scalar_1 = 0.433012694 * euler_12;
-    float b5_e_scalar_2 = 0.968245864 * euler_12;
+    float b5_e_scalar_1 = 0.433012694 * euler_11;
+    float b5_e_scalar_2 = 0.968245864 * euler_11;
     float b5_e_scalar_3 = 0.707106769 * b_c1;
     float b5_e_scalar_4 = 1.22474492 * b_c1;
     float b5_e_scalar_5 = 0.810092568 * b_s2;
@@ -1296,12 +1308,12 @@ void zonal_order6_prepare(float R[9], out float scalars[74]) {
     float b5_e_scalar_7 = 0.279508501 * b_s2;
     float b5_e_scalar_8 = 1.22474492 * b_c2;
     float b5_e_scalar_9 = 0.707106769 * b_c2;
-    float b5_o_scalar_1 = 0.661437809 * euler_12;
+    float b5_o_scalar_1 = 0.661437809 * euler_11;
     float b5_o_scalar_2 = 0.4375 * b_c1;
     float b5_o_scalar_3 = 0.795495152 * b_s3;
     float b5_o_scalar_4 = 0.6328125 * b_1;
     float b_2 = b_2c2 * b_1 + b_c1;
-    float b_3 = -b_2c2 * b_s3 + euler_12;
+    float b_3 = -b_2c2 * b_s3 + euler_11;
     float b5_o_scalar_5 = 0.701560736 * b_3;
     float b5_o_scalar_6 = 0.4921875 * b_2;
     float a_c5 = -a_2c1 * a_3 + a_1;
@@ -1323,7 +1335,7 @@ void zonal_order6_prepare(float R[9], out float scalars[74]) {
     scalars[14] = b2_e_scalar_1;
     scalars[15] = b2_e_scalar_3;
     scalars[16] = b_c1;
-    scalars[17] = euler_12;
+    scalars[17] = euler_11;
     scalars[18] = a_c1;
     scalars[19] = a_s1;
     scalars[20] = a_c2;

@@ -31,6 +31,8 @@ using graph::Value;
 
 /// Up to this order set-up counts: the powers of the angles take the fewest instructions.
 constexpr int kLastOrderOfRecurrence = 6;
+/// At order 4, where α has two powers to make, the least set-up counts more.
+constexpr int kFirstOrderOfExactAlpha = 5;
 
 /// X with its columns multiplied by scales: u = Xᵀ p is `seen` times what the steps undone make of p, and the
 /// steps make X u of u times `shown`.
@@ -393,22 +395,27 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
     const Value sin_g = named(cos_a * rows[1][0] - s0, "g_s1");
     const Value s1 = sin_a * rows[0][1];
     const Value cos_g = named(cos_a * rows[1][1] - s1, "g_c1");
-    // Their norm is not 1 where R is not orthonormal, by noise or by rounding, and the error would grow in
-    // the powers. The defects 1 - c² - s² are rounded at their own size and not at that of 1. The powers of γ
-    // make do with the defect; β, whose half angles make reflections, takes a Newton step.
-    const Value one{&graph, graph.constant(1)};
-    const Value one_g = one - cos_g * cos_g;
-    const Value defect_g = named(one_g - sin_g * sin_g, "g_defect");
     Value cos_b = rows[2][2];
+    // A norm that is not 1, by noise in R or by rounding, would grow in the powers. The defects 1 - c² - s²
+    // are rounded at their own size and not at that of 1. Powers make do with the defect; β, whose half
+    // angles make reflections, takes a Newton step.
+    const Value one{&graph, graph.constant(1)};
     const Value one_b = one - cos_b * cos_b;
     const Value half_defect_b = Number(0.5) * (one_b - squared_sin_b);
     sin_b = named(half_defect_b * sin_b + sin_b, "b_s1");
     cos_b = named(half_defect_b * cos_b + cos_b, "b_c1");
+    const auto defect_of = [&](Value cosine, Value sine, const char* name) {
+        graph.set_scope("euler");
+        const Value one_c = one - cosine * cosine;
+        return named(one_c - sine * sine, name);
+    };
     const PowerChain chain = order <= kLastOrderOfRecurrence ? PowerChain::recurrence : PowerChain::product;
     EulerScalars scalars{order, AnglePowers(kernel, "a", cos_a, sin_a, chain, false),
                          AnglePowers(kernel, "b", cos_b, sin_b, chain, true),
                          AnglePowers(kernel, "g", cos_g, sin_g, chain, false)};
-    scalars.gamma.set_norm_defect(defect_g);
+    scalars.gamma.set_norm_defect(defect_of(cos_g, sin_g, "g_defect"));
+    // α is normalised but for rounding, which is what errors are made of: three instructions halve them.
+    if (order >= kFirstOrderOfExactAlpha) scalars.alpha.set_norm_defect(defect_of(cos_a, sin_a, "a_defect"));
     return scalars;
 }
 

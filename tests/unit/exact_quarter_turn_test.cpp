@@ -87,5 +87,55 @@ TEST(OrthogonalBlock, no_shear_has_a_factor_above_1) {
     }
 }
 
+Matrix<Real> with_scaled_columns(Matrix<Real> matrix, const std::vector<Real>& scales) {
+    for (int j = 0; j < matrix.cols(); ++j) matrix.col(j) *= scales[j];
+    return matrix;
+}
+
+TEST(ScaledBlocks, steps_make_the_matrices_with_scaled_columns) {
+    for (int l = 2; l < 12; ++l) {
+        const auto blocks = quarter_turn_blocks(l);
+        for (const auto& group : {std::vector{blocks[0].matrix, blocks[1].matrix}, {blocks[3].matrix}}) {
+            const ScaledBlocks scaled = factorize_up_to_scales(group);
+            ASSERT_EQ(scaled.blocks.size(), group.size());
+            for (std::size_t k = 0; k < group.size(); ++k) {
+                const Matrix<Real> expected = with_scaled_columns(group[k], scaled.scales);
+                EXPECT_LT((multiplied_out(scaled.blocks[k]) - expected).norm(), kTolerance) << "band " << l;
+            }
+        }
+    }
+}
+
+TEST(ScaledBlocks, save_a_factor_a_column_but_one) {
+    const auto costs = [](const std::vector<Matrix<Real>>& matrices) {
+        std::vector<int> all;
+        for (const BlockSteps& block : factorize_up_to_scales(matrices).blocks)
+            all.push_back(instructions(block));
+        return all;
+    };
+    const auto band_3 = quarter_turn_blocks(3), band_5 = quarter_turn_blocks(5),
+               band_6 = quarter_turn_blocks(6);
+    EXPECT_EQ(costs({band_5[3].matrix}), std::vector{2});  // 2 x 2, without scales 3
+    EXPECT_EQ(costs({band_6[3].matrix}), std::vector{6});  // 3 x 3, without scales 8
+    // Scales serve one of two blocks.
+    const auto both = costs({band_3[0].matrix, band_3[1].matrix});
+    EXPECT_EQ(both[0] + both[1], 5);
+}
+
+TEST(ScaledBlocks, neither_scales_nor_factors_are_large) {
+    for (int l = 2; l < 12; ++l) {
+        const ScaledBlocks scaled = factorize_up_to_scales({quarter_turn_blocks(l)[3].matrix});
+        for (const Real& scale : scaled.scales) {
+            EXPECT_GE(scale, Real(0.5)) << "band " << l;
+            EXPECT_LE(scale, Real(2)) << "band " << l;
+        }
+        for (const BlockStep& step : scaled.blocks[0].steps) {
+            if (const auto* shear = std::get_if<Shear>(&step)) {
+                EXPECT_LE(shear->factors.cwiseAbs().maxCoeff(), Real(1)) << "band " << l;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace zonal::exact

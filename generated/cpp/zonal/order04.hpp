@@ -46,14 +46,14 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 104 mul 39 add 210 fma 0 other;
 //             per extra vector 48 mul 0 add 119 fma 0 other
-// bound   : rotate_channels relative error 9.3e-07 (float), 2.4e-15 (double),
-//             for det R = +1; excess 2.56
-//           rotate relative error 9.3e-07 (float), 2.4e-15 (double),
-//             for det R = +1; excess 2.56
+// bound   : rotate_channels relative error 1.1e-06 (float), 2.7e-15 (double),
+//             for det R = +1; excess 1.50
+//           rotate relative error 1.1e-06 (float), 2.7e-15 (double),
+//             for det R = +1; excess 1.50
 //           rotate_polynomial relative error 3.0e-07 (float), 6.5e-16 (double),
 //             for det R = +1 or -1; excess 2.23
-//           apply relative error 9.3e-07 (float), 2.4e-15 (double),
-//             for det R = +1; excess 2.56
+//           apply relative error 1.1e-06 (float), 2.8e-15 (double),
+//             for det R = +1; excess 1.50
 //           rotate_accurate relative error 2.3e-07 (float), 4.2e-16 (double),
 //             for det R = +1 or -1; excess 1.61
 //           blocks relative error 2.1e-07 (float), 4.5e-16 (double),
@@ -127,15 +127,15 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 9.3e-07;
-inline constexpr double kRotateChannelsBoundDouble = 2.4e-15;
-inline constexpr double kRotateChannelsExcess = 2.56;
+inline constexpr double kRotateChannelsBoundFloat = 1.1e-06;
+inline constexpr double kRotateChannelsBoundDouble = 2.7e-15;
+inline constexpr double kRotateChannelsExcess = 1.50;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 9.3e-07;
-inline constexpr double kRotateBoundDouble = 2.4e-15;
-inline constexpr double kRotateExcess = 2.56;
+inline constexpr double kRotateBoundFloat = 1.1e-06;
+inline constexpr double kRotateBoundDouble = 2.7e-15;
+inline constexpr double kRotateExcess = 1.50;
 
 /// Largest relative error of rotate_polynomial for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
@@ -145,9 +145,9 @@ inline constexpr double kRotatePolynomialExcess = 2.23;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 9.3e-07;
-inline constexpr double kApplyBoundDouble = 2.4e-15;
-inline constexpr double kApplyExcess = 2.56;
+inline constexpr double kApplyBoundFloat = 1.1e-06;
+inline constexpr double kApplyBoundDouble = 2.8e-15;
+inline constexpr double kApplyExcess = 1.50;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
@@ -215,13 +215,13 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const T euler_5 = fma(r00, a_s1, -euler_4);
     const T euler_6 = r11 * a_c1;
     const T euler_7 = fma(r01, a_s1, -euler_6);
-    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-    const T g_defect = fma(-euler_5, euler_5, euler_8);
-    const T euler_9 = fma(-r22, r22, T(1.0));
-    const T euler_10 = euler_3 - euler_9;
-    const T euler_11 = T(0.5) * euler_10;
-    const T euler_12 = fma(-b_s1, euler_11, b_s1);
-    const T b_c1 = fma(-r22, euler_11, r22);
+    const T euler_8 = fma(-r22, r22, T(1.0));
+    const T euler_9 = euler_3 - euler_8;
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(-b_s1, euler_10, b_s1);
+    const T b_c1 = fma(-r22, euler_10, r22);
+    const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+    const T g_defect = fma(-euler_5, euler_5, euler_12);
     const V b2_g_1 = euler_7 * f[7];
     const V b2_g_2 = fma(euler_5, f[5], -b2_g_1);
     const V b2_g_3 = euler_5 * f[7];
@@ -234,8 +234,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b2_g_6 = fma(g_s2, f[4], -b2_g_5);
     const V b2_g_7 = g_s2 * f[8];
     const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
-    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_12;
-    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_12;
+    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_11;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_11;
     const T b2_e_scalar_3 = T(1.4142135623730951) * b_c1;
     const V b2_e_1 = b2_e_scalar_2 * b2_g_6;
     const V b2_e_2 = fma(b2_e_scalar_1, f[6], b2_e_1);
@@ -244,8 +244,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b2_e_5 = fma(-b2_e_scalar_2, b2_e_3, b2_g_6);
     const V b2_e_6 = fma(-b2_e_scalar_3, b2_e_3, b2_g_2);
     const V b2_o_1 = b_c1 * b2_g_8;
-    const V b2_o_2 = fma(euler_12, b2_g_4, -b2_o_1);
-    const V b2_o_3 = euler_12 * b2_g_8;
+    const V b2_o_2 = fma(euler_11, b2_g_4, -b2_o_1);
+    const V b2_o_3 = euler_11 * b2_g_8;
     const V b2_o_4 = fma(b_c1, b2_g_4, b2_o_3);
     const V b2_a_1 = a_c1 * b2_e_6;
     const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
@@ -277,8 +277,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_g_10 = fma(g_s3, f[9], -b3_g_9);
     const V b3_g_11 = g_s3 * f[15];
     const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
-    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_12;
-    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_12;
+    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_11;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_11;
     const V b3_e_1 = b3_e_scalar_2 * b3_g_12;
     const V b3_e_2 = fma(b3_e_scalar_1, b3_g_4, b3_e_1);
     const V b3_e_3 = fma(-b2_e_scalar_3, b3_g_8, b3_e_2);
@@ -289,7 +289,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_o_2 = fma(T(0.24206145913796356), b3_o_1, b3_g_2);
     const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
     const V b3_o_4 = fma(T(0.48412291827592713), b3_o_3, f[12]);
-    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_12;
+    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_11;
     const V b3_o_5 = b_c1 * b3_o_1;
     const V b3_o_6 = fma(b3_o_scalar_1, b3_o_3, b3_o_5);
     const V b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -297,7 +297,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const T b_2c1 = b_c1 + b_c1;
     const T b_2c2 = fma(b_2c1, b_2c1, T(-2.0));
     const T b_1 = fma(-b_c1, b_2c2, b_c1);
-    const T b_s3 = fma(euler_12, b_2c2, euler_12);
+    const T b_s3 = fma(euler_11, b_2c2, euler_11);
     const T b3_o_scalar_2 = T(0.81649658092772603) * b_s3;
     const T b3_o_scalar_3 = T(1.2247448713915889) * b_s3;
     const V b3_o_9 = b_1 * b3_o_2;
@@ -384,13 +384,13 @@ void rotate(const T* R, const V* f, V* out) {
         const T euler_5 = fma(r00, a_s1, -euler_4);
         const T euler_6 = r11 * a_c1;
         const T euler_7 = fma(r01, a_s1, -euler_6);
-        const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-        const T g_defect = fma(-euler_5, euler_5, euler_8);
-        const T euler_9 = fma(-r22, r22, T(1.0));
-        const T euler_10 = euler_3 - euler_9;
-        const T euler_11 = T(0.5) * euler_10;
-        const T euler_12 = fma(-b_s1, euler_11, b_s1);
-        const T b_c1 = fma(-r22, euler_11, r22);
+        const T euler_8 = fma(-r22, r22, T(1.0));
+        const T euler_9 = euler_3 - euler_8;
+        const T euler_10 = T(0.5) * euler_9;
+        const T euler_11 = fma(-b_s1, euler_10, b_s1);
+        const T b_c1 = fma(-r22, euler_10, r22);
+        const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+        const T g_defect = fma(-euler_5, euler_5, euler_12);
         const V b2_g_1 = euler_7 * f[7];
         const V b2_g_2 = fma(euler_5, f[5], -b2_g_1);
         const V b2_g_3 = euler_5 * f[7];
@@ -405,15 +405,15 @@ void rotate(const T* R, const V* f, V* out) {
         const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
         const T b_2c1 = b_c1 + b_c1;
         const V b2_e_1 = fma(T(1.7320508075688772), f[6], b2_g_6);
-        const V b2_e_2 = euler_12 * b2_e_1;
+        const V b2_e_2 = euler_11 * b2_e_1;
         const V b2_e_3 = fma(b_2c1, b2_g_2, b2_e_2);
-        const V b2_e_4 = euler_12 * b2_e_3;
+        const V b2_e_4 = euler_11 * b2_e_3;
         const V b2_e_5 = fma(T(-0.8660254037844386), b2_e_4, f[6]);
         const V b2_e_6 = fma(T(-0.5), b2_e_4, b2_g_6);
         const V b2_e_7 = fma(-b_c1, b2_e_3, b2_g_2);
         const V b2_o_1 = b_c1 * b2_g_8;
-        const V b2_o_2 = fma(euler_12, b2_g_4, -b2_o_1);
-        const V b2_o_3 = euler_12 * b2_g_8;
+        const V b2_o_2 = fma(euler_11, b2_g_4, -b2_o_1);
+        const V b2_o_3 = euler_11 * b2_g_8;
         const V b2_o_4 = fma(b_c1, b2_g_4, b2_o_3);
         const V b2_a_1 = a_c1 * b2_e_7;
         const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
@@ -447,9 +447,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
         const V b3_e_1 = T(1.2247448713915889) * b3_g_12;
         const V b3_e_2 = fma(T(1.5811388300841898), b3_g_4, b3_e_1);
-        const V b3_e_3 = euler_12 * b3_e_2;
+        const V b3_e_3 = euler_11 * b3_e_2;
         const V b3_e_4 = fma(b_2c1, b3_g_8, -b3_e_3);
-        const V b3_e_5 = euler_12 * b3_e_4;
+        const V b3_e_5 = euler_11 * b3_e_4;
         const V b3_e_6 = fma(T(0.79056941504209488), b3_e_5, b3_g_4);
         const V b3_e_7 = fma(T(0.61237243569579447), b3_e_5, b3_g_12);
         const V b3_e_8 = fma(-b_c1, b3_e_4, b3_g_8);
@@ -459,12 +459,12 @@ void rotate(const T* R, const V* f, V* out) {
         const V b3_o_4 = fma(T(0.59292706128157113), b3_o_3, f[12]);
         const V b3_o_5 = fma(T(-0.309487340104943), b3_o_4, b3_o_3);
         const V b3_o_6 = b_c1 * b3_o_1;
-        const V b3_o_7 = fma(euler_12, b3_o_5, b3_o_6);
-        const V b3_o_8 = euler_12 * b3_o_1;
+        const V b3_o_7 = fma(euler_11, b3_o_5, b3_o_6);
+        const V b3_o_8 = euler_11 * b3_o_1;
         const V b3_o_9 = fma(b_c1, b3_o_5, -b3_o_8);
         const T b_2c2 = fma(b_2c1, b_2c1, T(-2.0));
         const T b_1 = fma(-b_c1, b_2c2, b_c1);
-        const T b_s3 = fma(euler_12, b_2c2, euler_12);
+        const T b_s3 = fma(euler_11, b_2c2, euler_11);
         const V b3_o_10 = b_1 * b3_o_2;
         const V b3_o_11 = fma(b_s3, b3_o_4, -b3_o_10);
         const V b3_o_12 = b_s3 * b3_o_2;
@@ -714,34 +714,34 @@ void prepare(const T* R, T* scalars) {
     const T euler_5 = fma(r00, a_s1, -euler_4);
     const T euler_6 = r11 * a_c1;
     const T euler_7 = fma(r01, a_s1, -euler_6);
-    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-    const T g_defect = fma(-euler_5, euler_5, euler_8);
-    const T euler_9 = fma(-r22, r22, T(1.0));
-    const T euler_10 = euler_3 - euler_9;
-    const T euler_11 = T(0.5) * euler_10;
-    const T euler_12 = fma(-b_s1, euler_11, b_s1);
-    const T b_c1 = fma(-r22, euler_11, r22);
+    const T euler_8 = fma(-r22, r22, T(1.0));
+    const T euler_9 = euler_3 - euler_8;
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(-b_s1, euler_10, b_s1);
+    const T b_c1 = fma(-r22, euler_10, r22);
+    const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+    const T g_defect = fma(-euler_5, euler_5, euler_12);
     const T g_1 = euler_7 + euler_7;
     const T g_2 = fma(g_defect, g_1, g_1);
     const T g_s2 = euler_5 * g_2;
     const T g_c2 = fma(euler_7, g_2, T(-1.0));
-    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_12;
-    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_12;
+    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_11;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_11;
     const T b2_e_scalar_3 = T(1.4142135623730951) * b_c1;
     const T a_2c1 = a_c1 + a_c1;
     const T a_s2 = a_s1 * a_2c1;
     const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
     const T g_c3 = fma(-g_1, g_c2, euler_7);
     const T g_s3 = fma(-g_1, g_s2, euler_5);
-    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_12;
-    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_12;
+    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_11;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_11;
     const T b3_o_scalar_1 = T(0.9375) * b_c1;
-    const T b3_o_scalar_2 = T(0.76546554461974314) * euler_12;
+    const T b3_o_scalar_2 = T(0.76546554461974314) * euler_11;
     const T b3_o_scalar_3 = T(0.625) * b_c1;
     const T b_2c1 = b_c1 + b_c1;
     const T b_2c2 = fma(b_2c1, b_2c1, T(-2.0));
     const T b_1 = fma(-b_c1, b_2c2, b_c1);
-    const T b_s3 = fma(euler_12, b_2c2, euler_12);
+    const T b_s3 = fma(euler_11, b_2c2, euler_11);
     const T b3_o_scalar_4 = T(0.9375) * b_1;
     const T b3_o_scalar_5 = T(0.76546554461974314) * b_s3;
     const T b3_o_scalar_6 = T(0.625) * b_1;
@@ -764,7 +764,7 @@ void prepare(const T* R, T* scalars) {
     scalars[14] = b2_e_scalar_1;
     scalars[15] = b2_e_scalar_3;
     scalars[16] = b_c1;
-    scalars[17] = euler_12;
+    scalars[17] = euler_11;
     scalars[18] = a_c1;
     scalars[19] = a_s1;
     scalars[20] = a_c2;

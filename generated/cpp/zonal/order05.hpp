@@ -5,11 +5,11 @@
 //           generator/tables/band03.json  sha256:1469a1105632666f
 //           generator/tables/mirrored/band04.json  sha256:c5c037823ac6aa26
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : rotate_channels 81 mul 5 add 119 fma 3 other;
+// cost    : rotate_channels 81 mul 5 add 122 fma 3 other;
 //             per extra vector 53 mul 0 add 96 fma 0 other
-//           rotate 67 mul 5 add 123 fma 3 other;
+//           rotate 67 mul 5 add 126 fma 3 other;
 //             per extra vector 60 mul 0 add 100 fma 0 other
-//           prepare 33 mul 5 add 23 fma 3 other;
+//           prepare 33 mul 5 add 26 fma 3 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           apply 53 mul 0 add 96 fma 0 other;
 //             per extra vector 53 mul 0 add 96 fma 0 other
@@ -46,11 +46,11 @@
 //           stable::rotate_zhf 204 mul 69 add 387 fma 0 other;
 //             per extra vector 99 mul 0 add 255 fma 0 other
 // bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double),
-//             for det R = +1; excess 4.21
-//           rotate relative error 1.7e-06 (float), 4.5e-15 (double),
-//             for det R = +1; excess 4.21
-//           apply relative error 1.7e-06 (float), 4.4e-15 (double),
-//             for det R = +1; excess 4.21
+//             for det R = +1; excess 2.00
+//           rotate relative error 1.7e-06 (float), 4.4e-15 (double),
+//             for det R = +1; excess 2.00
+//           apply relative error 1.8e-06 (float), 4.5e-15 (double),
+//             for det R = +1; excess 2.00
 //           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double),
 //             for det R = +1 or -1; excess 2.13
 //           blocks relative error 2.8e-07 (float), 4.9e-16 (double),
@@ -126,19 +126,19 @@ inline constexpr int kTakesMirrors = 0;
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 1.7e-06;
 inline constexpr double kRotateChannelsBoundDouble = 4.4e-15;
-inline constexpr double kRotateChannelsExcess = 4.21;
+inline constexpr double kRotateChannelsExcess = 2.00;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 1.7e-06;
-inline constexpr double kRotateBoundDouble = 4.5e-15;
-inline constexpr double kRotateExcess = 4.21;
+inline constexpr double kRotateBoundDouble = 4.4e-15;
+inline constexpr double kRotateExcess = 2.00;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.7e-06;
-inline constexpr double kApplyBoundDouble = 4.4e-15;
-inline constexpr double kApplyExcess = 4.21;
+inline constexpr double kApplyBoundFloat = 1.8e-06;
+inline constexpr double kApplyBoundDouble = 4.5e-15;
+inline constexpr double kApplyExcess = 2.00;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
@@ -206,13 +206,15 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const T euler_5 = fma(r00, a_s1, -euler_4);
     const T euler_6 = r11 * a_c1;
     const T euler_7 = fma(r01, a_s1, -euler_6);
-    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-    const T g_defect = fma(-euler_5, euler_5, euler_8);
-    const T euler_9 = fma(-r22, r22, T(1.0));
-    const T euler_10 = euler_3 - euler_9;
-    const T euler_11 = T(0.5) * euler_10;
-    const T euler_12 = fma(-b_s1, euler_11, b_s1);
-    const T b_c1 = fma(-r22, euler_11, r22);
+    const T euler_8 = fma(-r22, r22, T(1.0));
+    const T euler_9 = euler_3 - euler_8;
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(-b_s1, euler_10, b_s1);
+    const T b_c1 = fma(-r22, euler_10, r22);
+    const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+    const T g_defect = fma(-euler_5, euler_5, euler_12);
+    const T euler_13 = fma(-a_c1, a_c1, T(1.0));
+    const T a_defect = fma(-a_s1, a_s1, euler_13);
     const V b2_g_1 = euler_7 * f[7];
     const V b2_g_2 = fma(euler_5, f[5], -b2_g_1);
     const V b2_g_3 = euler_5 * f[7];
@@ -225,8 +227,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b2_g_6 = fma(g_s2, f[4], -b2_g_5);
     const V b2_g_7 = g_s2 * f[8];
     const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
-    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_12;
-    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_12;
+    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_11;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_11;
     const T b2_e_scalar_3 = T(1.4142135623730951) * b_c1;
     const V b2_e_1 = b2_e_scalar_2 * b2_g_6;
     const V b2_e_2 = fma(b2_e_scalar_1, f[6], b2_e_1);
@@ -235,15 +237,16 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b2_e_5 = fma(-b2_e_scalar_2, b2_e_3, b2_g_6);
     const V b2_e_6 = fma(-b2_e_scalar_3, b2_e_3, b2_g_2);
     const V b2_o_1 = b_c1 * b2_g_8;
-    const V b2_o_2 = fma(euler_12, b2_g_4, -b2_o_1);
-    const V b2_o_3 = euler_12 * b2_g_8;
+    const V b2_o_2 = fma(euler_11, b2_g_4, -b2_o_1);
+    const V b2_o_3 = euler_11 * b2_g_8;
     const V b2_o_4 = fma(b_c1, b2_g_4, b2_o_3);
     const V b2_a_1 = a_c1 * b2_e_6;
     const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
     const V b2_a_3 = a_s1 * b2_e_6;
     const T a_2c1 = a_c1 + a_c1;
-    const T a_s2 = a_s1 * a_2c1;
-    const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+    const T a_2c1_over_n = fma(a_defect, a_2c1, a_2c1);
+    const T a_s2 = a_s1 * a_2c1_over_n;
+    const T a_c2 = fma(a_c1, a_2c1_over_n, T(-1.0));
     const V b2_a_4 = a_c2 * b2_e_5;
     const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
     const V b2_a_6 = a_s2 * b2_e_5;
@@ -268,8 +271,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_g_10 = fma(g_s3, f[9], -b3_g_9);
     const V b3_g_11 = g_s3 * f[15];
     const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
-    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_12;
-    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_12;
+    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_11;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_11;
     const V b3_e_1 = b3_e_scalar_2 * b3_g_12;
     const V b3_e_2 = fma(b3_e_scalar_1, b3_g_4, b3_e_1);
     const V b3_e_3 = fma(-b2_e_scalar_3, b3_g_8, b3_e_2);
@@ -280,7 +283,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_o_2 = fma(T(0.24206145913796356), b3_o_1, b3_g_2);
     const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
     const V b3_o_4 = fma(T(0.48412291827592713), b3_o_3, f[12]);
-    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_12;
+    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_11;
     const V b3_o_5 = b_c1 * b3_o_1;
     const V b3_o_6 = fma(b3_o_scalar_1, b3_o_3, b3_o_5);
     const V b3_o_7 = b2_e_scalar_1 * b3_o_1;
@@ -288,7 +291,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const T b_2c1 = b_c1 + b_c1;
     const T b_2c2 = fma(b_2c1, b_2c1, T(-2.0));
     const T b_1 = fma(-b_c1, b_2c2, b_c1);
-    const T b_s3 = fma(euler_12, b_2c2, euler_12);
+    const T b_s3 = fma(euler_11, b_2c2, euler_11);
     const T b3_o_scalar_2 = T(0.81649658092772603) * b_s3;
     const T b3_o_scalar_3 = T(1.2247448713915889) * b_s3;
     const V b3_o_9 = b_1 * b3_o_2;
@@ -339,8 +342,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_g_14 = fma(g_4, f[16], -b4_g_13);
     const V b4_g_15 = g_4 * f[24];
     const V b4_g_16 = fma(g_3, f[16], b4_g_15);
-    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_12;
-    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_12;
+    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_11;
+    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_11;
     const T b4_e_scalar_3 = T(0.5) * b_c1;
     const T b4_e_scalar_4 = T(1.3228756555322954) * b_c1;
     const V b4_e_1 = b2_e_scalar_2 * b4_g_6;
@@ -353,7 +356,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_e_8 = fma(b4_e_scalar_2, b4_e_5, b4_g_14);
     const V b4_e_9 = fma(-b4_e_scalar_3, b4_e_5, b4_g_2);
     const V b4_e_10 = fma(b4_e_scalar_4, b4_e_5, b4_g_10);
-    const T b_s2 = euler_12 * b_2c1;
+    const T b_s2 = euler_11 * b_2c1;
     const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
     const T b4_e_scalar_5 = T(1.0458250331675945) * b_s2;
     const T b4_e_scalar_6 = T(0.93541434669348533) * b_s2;
@@ -374,8 +377,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_o_2 = fma(T(0.33071891388307384), b4_o_1, b4_g_8);
     const V b4_o_3 = fma(T(-0.88191710368819687), b4_g_12, b4_g_4);
     const V b4_o_4 = fma(T(0.49607837082461076), b4_o_3, b4_g_12);
-    const T b4_o_scalar_1 = T(1.247219128924647) * euler_12;
-    const T b4_o_scalar_2 = T(0.80178372573727319) * euler_12;
+    const T b4_o_scalar_1 = T(1.247219128924647) * euler_11;
+    const T b4_o_scalar_2 = T(0.80178372573727319) * euler_11;
     const V b4_o_5 = b_c1 * b4_o_1;
     const V b4_o_6 = fma(b4_o_scalar_2, b4_o_3, b4_o_5);
     const V b4_o_7 = b4_o_scalar_1 * b4_o_1;
@@ -399,8 +402,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_a_7 = a_1 * b4_e_20;
     const V b4_a_8 = a_2 * b4_e_20;
     const V b4_a_9 = fma(a_1, b4_o_15, -b4_a_8);
-    const T a_3 = fma(a_2c1, a_1, a_c2);
-    const T a_4 = fma(a_2c1, a_2, a_s2);
+    const T a_3 = fma(a_2c1_over_n, a_1, a_c2);
+    const T a_4 = fma(a_2c1_over_n, a_2, a_s2);
     const V b4_a_10 = a_3 * b4_e_18;
     const V b4_a_11 = a_4 * b4_e_18;
     const V b4_a_12 = fma(a_3, b4_o_14, -b4_a_11);
@@ -471,13 +474,15 @@ void rotate(const T* R, const V* f, V* out) {
         const T euler_5 = fma(r00, a_s1, -euler_4);
         const T euler_6 = r11 * a_c1;
         const T euler_7 = fma(r01, a_s1, -euler_6);
-        const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-        const T g_defect = fma(-euler_5, euler_5, euler_8);
-        const T euler_9 = fma(-r22, r22, T(1.0));
-        const T euler_10 = euler_3 - euler_9;
-        const T euler_11 = T(0.5) * euler_10;
-        const T euler_12 = fma(-b_s1, euler_11, b_s1);
-        const T b_c1 = fma(-r22, euler_11, r22);
+        const T euler_8 = fma(-r22, r22, T(1.0));
+        const T euler_9 = euler_3 - euler_8;
+        const T euler_10 = T(0.5) * euler_9;
+        const T euler_11 = fma(-b_s1, euler_10, b_s1);
+        const T b_c1 = fma(-r22, euler_10, r22);
+        const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+        const T g_defect = fma(-euler_5, euler_5, euler_12);
+        const T euler_13 = fma(-a_c1, a_c1, T(1.0));
+        const T a_defect = fma(-a_s1, a_s1, euler_13);
         const V b2_g_1 = euler_7 * f[7];
         const V b2_g_2 = fma(euler_5, f[5], -b2_g_1);
         const V b2_g_3 = euler_5 * f[7];
@@ -492,22 +497,23 @@ void rotate(const T* R, const V* f, V* out) {
         const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
         const T b_2c1 = b_c1 + b_c1;
         const V b2_e_1 = fma(T(1.7320508075688772), f[6], b2_g_6);
-        const V b2_e_2 = euler_12 * b2_e_1;
+        const V b2_e_2 = euler_11 * b2_e_1;
         const V b2_e_3 = fma(b_2c1, b2_g_2, b2_e_2);
-        const V b2_e_4 = euler_12 * b2_e_3;
+        const V b2_e_4 = euler_11 * b2_e_3;
         const V b2_e_5 = fma(T(-0.8660254037844386), b2_e_4, f[6]);
         const V b2_e_6 = fma(T(-0.5), b2_e_4, b2_g_6);
         const V b2_e_7 = fma(-b_c1, b2_e_3, b2_g_2);
         const V b2_o_1 = b_c1 * b2_g_8;
-        const V b2_o_2 = fma(euler_12, b2_g_4, -b2_o_1);
-        const V b2_o_3 = euler_12 * b2_g_8;
+        const V b2_o_2 = fma(euler_11, b2_g_4, -b2_o_1);
+        const V b2_o_3 = euler_11 * b2_g_8;
         const V b2_o_4 = fma(b_c1, b2_g_4, b2_o_3);
         const V b2_a_1 = a_c1 * b2_e_7;
         const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
         const V b2_a_3 = a_s1 * b2_e_7;
         const T a_2c1 = a_c1 + a_c1;
-        const T a_s2 = a_s1 * a_2c1;
-        const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+        const T a_2c1_over_n = fma(a_defect, a_2c1, a_2c1);
+        const T a_s2 = a_s1 * a_2c1_over_n;
+        const T a_c2 = fma(a_c1, a_2c1_over_n, T(-1.0));
         const V b2_a_4 = a_c2 * b2_e_6;
         const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
         const V b2_a_6 = a_s2 * b2_e_6;
@@ -534,9 +540,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b3_g_12 = fma(g_c3, f[9], b3_g_11);
         const V b3_e_1 = T(1.2247448713915889) * b3_g_12;
         const V b3_e_2 = fma(T(1.5811388300841898), b3_g_4, b3_e_1);
-        const V b3_e_3 = euler_12 * b3_e_2;
+        const V b3_e_3 = euler_11 * b3_e_2;
         const V b3_e_4 = fma(b_2c1, b3_g_8, -b3_e_3);
-        const V b3_e_5 = euler_12 * b3_e_4;
+        const V b3_e_5 = euler_11 * b3_e_4;
         const V b3_e_6 = fma(T(0.79056941504209488), b3_e_5, b3_g_4);
         const V b3_e_7 = fma(T(0.61237243569579447), b3_e_5, b3_g_12);
         const V b3_e_8 = fma(-b_c1, b3_e_4, b3_g_8);
@@ -546,12 +552,12 @@ void rotate(const T* R, const V* f, V* out) {
         const V b3_o_4 = fma(T(0.59292706128157113), b3_o_3, f[12]);
         const V b3_o_5 = fma(T(-0.309487340104943), b3_o_4, b3_o_3);
         const V b3_o_6 = b_c1 * b3_o_1;
-        const V b3_o_7 = fma(euler_12, b3_o_5, b3_o_6);
-        const V b3_o_8 = euler_12 * b3_o_1;
+        const V b3_o_7 = fma(euler_11, b3_o_5, b3_o_6);
+        const V b3_o_8 = euler_11 * b3_o_1;
         const V b3_o_9 = fma(b_c1, b3_o_5, -b3_o_8);
         const T b_2c2 = fma(b_2c1, b_2c1, T(-2.0));
         const T b_1 = fma(-b_c1, b_2c2, b_c1);
-        const T b_s3 = fma(euler_12, b_2c2, euler_12);
+        const T b_s3 = fma(euler_11, b_2c2, euler_11);
         const V b3_o_10 = b_1 * b3_o_2;
         const V b3_o_11 = fma(b_s3, b3_o_4, -b3_o_10);
         const V b3_o_12 = b_s3 * b3_o_2;
@@ -606,14 +612,14 @@ void rotate(const T* R, const V* f, V* out) {
         const V b4_e_3 = T(1.0690449676496976) * b4_g_6;
         const V b4_e_4 = fma(T(1.1952286093343936), f[20], -b4_e_3);
         const V b4_e_5 = fma(T(-1.4142135623730951), b4_g_14, b4_e_4);
-        const V b4_e_6 = euler_12 * b4_e_5;
+        const V b4_e_6 = euler_11 * b4_e_5;
         const V b4_e_7 = fma(b_2c1, b4_e_1, -b4_e_6);
-        const V b4_e_8 = euler_12 * b4_e_7;
+        const V b4_e_8 = euler_11 * b4_e_7;
         const V b4_e_9 = fma(T(0.52291251658379723), b4_e_8, f[20]);
         const V b4_e_10 = fma(T(-0.46770717334674267), b4_e_8, b4_g_6);
         const V b4_e_11 = fma(T(-0.61871843353822908), b4_e_8, b4_g_14);
         const V b4_e_12 = fma(-b_c1, b4_e_7, b4_e_1);
-        const T b_s2 = euler_12 * b_2c1;
+        const T b_s2 = euler_11 * b_2c1;
         const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
         const V b4_e_13 = T(1.2374368670764582) * b4_g_6;
         const V b4_e_14 = fma(T(1.3834964763236659), f[20], b4_e_13);
@@ -633,8 +639,8 @@ void rotate(const T* R, const V* f, V* out) {
         const V b4_o_4 = fma(T(0.61871843353822908), b4_o_3, b4_g_12);
         const V b4_o_5 = fma(T(-0.32036587810904382), b4_o_4, b4_o_3);
         const V b4_o_6 = b_c1 * b4_o_1;
-        const V b4_o_7 = fma(euler_12, b4_o_5, b4_o_6);
-        const V b4_o_8 = euler_12 * b4_o_1;
+        const V b4_o_7 = fma(euler_11, b4_o_5, b4_o_6);
+        const V b4_o_8 = euler_11 * b4_o_1;
         const V b4_o_9 = fma(b_c1, b4_o_5, -b4_o_8);
         const V b4_o_10 = b_1 * b4_o_2;
         const V b4_o_11 = fma(b_s3, b4_o_4, b4_o_10);
@@ -654,8 +660,8 @@ void rotate(const T* R, const V* f, V* out) {
         const V b4_a_7 = a_1 * b4_e_24;
         const V b4_a_8 = a_2 * b4_e_24;
         const V b4_a_9 = fma(a_1, b4_o_17, -b4_a_8);
-        const T a_3 = fma(a_2c1, a_1, a_c2);
-        const T a_4 = fma(a_2c1, a_2, a_s2);
+        const T a_3 = fma(a_2c1_over_n, a_1, a_c2);
+        const T a_4 = fma(a_2c1_over_n, a_2, a_s2);
         const V b4_a_10 = a_3 * b4_e_21;
         const V b4_a_11 = a_4 * b4_e_21;
         const V b4_a_12 = fma(a_3, b4_o_15, -b4_a_11);
@@ -707,34 +713,37 @@ void prepare(const T* R, T* scalars) {
     const T euler_5 = fma(r00, a_s1, -euler_4);
     const T euler_6 = r11 * a_c1;
     const T euler_7 = fma(r01, a_s1, -euler_6);
-    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-    const T g_defect = fma(-euler_5, euler_5, euler_8);
-    const T euler_9 = fma(-r22, r22, T(1.0));
-    const T euler_10 = euler_3 - euler_9;
-    const T euler_11 = T(0.5) * euler_10;
-    const T euler_12 = fma(-b_s1, euler_11, b_s1);
-    const T b_c1 = fma(-r22, euler_11, r22);
+    const T euler_8 = fma(-r22, r22, T(1.0));
+    const T euler_9 = euler_3 - euler_8;
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(-b_s1, euler_10, b_s1);
+    const T b_c1 = fma(-r22, euler_10, r22);
+    const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+    const T g_defect = fma(-euler_5, euler_5, euler_12);
+    const T euler_13 = fma(-a_c1, a_c1, T(1.0));
+    const T a_defect = fma(-a_s1, a_s1, euler_13);
     const T g_1 = euler_7 + euler_7;
     const T g_2 = fma(g_defect, g_1, g_1);
     const T g_s2 = euler_5 * g_2;
     const T g_c2 = fma(euler_7, g_2, T(-1.0));
-    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_12;
-    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_12;
+    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_11;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_11;
     const T b2_e_scalar_3 = T(1.4142135623730951) * b_c1;
     const T a_2c1 = a_c1 + a_c1;
-    const T a_s2 = a_s1 * a_2c1;
-    const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+    const T a_2c1_over_n = fma(a_defect, a_2c1, a_2c1);
+    const T a_s2 = a_s1 * a_2c1_over_n;
+    const T a_c2 = fma(a_c1, a_2c1_over_n, T(-1.0));
     const T g_c3 = fma(-g_1, g_c2, euler_7);
     const T g_s3 = fma(-g_1, g_s2, euler_5);
-    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_12;
-    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_12;
+    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_11;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_11;
     const T b3_o_scalar_1 = T(0.9375) * b_c1;
-    const T b3_o_scalar_2 = T(0.76546554461974314) * euler_12;
+    const T b3_o_scalar_2 = T(0.76546554461974314) * euler_11;
     const T b3_o_scalar_3 = T(0.625) * b_c1;
     const T b_2c1 = b_c1 + b_c1;
     const T b_2c2 = fma(b_2c1, b_2c1, T(-2.0));
     const T b_1 = fma(-b_c1, b_2c2, b_c1);
-    const T b_s3 = fma(euler_12, b_2c2, euler_12);
+    const T b_s3 = fma(euler_11, b_2c2, euler_11);
     const T b3_o_scalar_4 = T(0.9375) * b_1;
     const T b3_o_scalar_5 = T(0.76546554461974314) * b_s3;
     const T b3_o_scalar_6 = T(0.625) * b_1;
@@ -742,11 +751,11 @@ void prepare(const T* R, T* scalars) {
     const T a_2 = fma(-a_2c1, a_s2, a_s1);
     const T g_3 = fma(g_2, g_c3, g_c2);
     const T g_4 = fma(g_2, g_s3, g_s2);
-    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_12;
-    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_12;
+    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_11;
+    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_11;
     const T b4_e_scalar_3 = T(0.5) * b_c1;
     const T b4_e_scalar_4 = T(1.3228756555322954) * b_c1;
-    const T b_s2 = euler_12 * b_2c1;
+    const T b_s2 = euler_11 * b_2c1;
     const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
     const T b4_e_scalar_5 = T(1.0458250331675945) * b_s2;
     const T b4_e_scalar_6 = T(0.93541434669348533) * b_s2;
@@ -754,13 +763,13 @@ void prepare(const T* R, T* scalars) {
     const T b4_e_scalar_8 = T(1.3228756555322954) * b_c2;
     const T b4_e_scalar_9 = T(0.5) * b_c2;
     const T b4_o_scalar_1 = T(0.875) * b_c1;
-    const T b4_o_scalar_2 = T(0.70156076002011403) * euler_12;
+    const T b4_o_scalar_2 = T(0.70156076002011403) * euler_11;
     const T b4_o_scalar_3 = T(0.5625) * b_c1;
     const T b4_o_scalar_4 = T(0.875) * b_1;
     const T b4_o_scalar_5 = T(0.70156076002011403) * b_s3;
     const T b4_o_scalar_6 = T(0.5625) * b_1;
-    const T a_3 = fma(a_2c1, a_1, a_c2);
-    const T a_4 = fma(a_2c1, a_2, a_s2);
+    const T a_3 = fma(a_2c1_over_n, a_1, a_c2);
+    const T a_4 = fma(a_2c1_over_n, a_2, a_s2);
     scalars[0] = r11;
     scalars[1] = r10;
     scalars[2] = r12;
@@ -778,7 +787,7 @@ void prepare(const T* R, T* scalars) {
     scalars[14] = b2_e_scalar_1;
     scalars[15] = b2_e_scalar_3;
     scalars[16] = b_c1;
-    scalars[17] = euler_12;
+    scalars[17] = euler_11;
     scalars[18] = a_c1;
     scalars[19] = a_s1;
     scalars[20] = a_c2;

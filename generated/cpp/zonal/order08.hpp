@@ -8,11 +8,11 @@
 //           generator/tables/mirrored/band06.json  sha256:856ed196dc3daf98
 //           generator/tables/mirrored/band07.json  sha256:b4ef63552ee74b06
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : rotate_channels 250 mul 8 add 412 fma 3 other;
+// cost    : rotate_channels 250 mul 8 add 415 fma 3 other;
 //             per extra vector 165 mul 0 add 374 fma 0 other
-//           rotate 211 mul 8 add 430 fma 3 other;
+//           rotate 211 mul 8 add 433 fma 3 other;
 //             per extra vector 176 mul 0 add 392 fma 0 other
-//           prepare 130 mul 7 add 38 fma 3 other;
+//           prepare 130 mul 7 add 41 fma 3 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           apply 153 mul 0 add 376 fma 0 other;
 //             per extra vector 153 mul 0 add 376 fma 0 other
@@ -48,11 +48,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 891 mul 192 add 1707 fma 0 other;
 //             per extra vector 438 mul 0 add 1200 fma 0 other
-// bound   : rotate_channels relative error 1.4e-06 (float), 3.0e-15 (double),
+// bound   : rotate_channels relative error 1.4e-06 (float), 3.1e-15 (double),
 //             for det R = +1; excess 3.50
-//           rotate relative error 1.4e-06 (float), 3.0e-15 (double),
+//           rotate relative error 1.4e-06 (float), 3.1e-15 (double),
 //             for det R = +1; excess 3.50
-//           apply relative error 1.4e-06 (float), 3.0e-15 (double),
+//           apply relative error 1.4e-06 (float), 3.1e-15 (double),
 //             for det R = +1; excess 3.50
 //           rotate_accurate relative error 4.0e-07 (float), 8.2e-16 (double),
 //             for det R = +1 or -1; excess 3.72
@@ -128,19 +128,19 @@ inline constexpr int kTakesMirrors = 0;
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateChannelsBoundFloat = 1.4e-06;
-inline constexpr double kRotateChannelsBoundDouble = 3.0e-15;
+inline constexpr double kRotateChannelsBoundDouble = 3.1e-15;
 inline constexpr double kRotateChannelsExcess = 3.50;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateBoundFloat = 1.4e-06;
-inline constexpr double kRotateBoundDouble = 3.0e-15;
+inline constexpr double kRotateBoundDouble = 3.1e-15;
 inline constexpr double kRotateExcess = 3.50;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kApplyBoundFloat = 1.4e-06;
-inline constexpr double kApplyBoundDouble = 3.0e-15;
+inline constexpr double kApplyBoundDouble = 3.1e-15;
 inline constexpr double kApplyExcess = 3.50;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
@@ -209,13 +209,15 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const T euler_5 = fma(r00, a_s1, -euler_4);
     const T euler_6 = r11 * a_c1;
     const T euler_7 = fma(r01, a_s1, -euler_6);
-    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-    const T g_defect = fma(-euler_5, euler_5, euler_8);
-    const T euler_9 = fma(-r22, r22, T(1.0));
-    const T euler_10 = euler_3 - euler_9;
-    const T euler_11 = T(0.5) * euler_10;
-    const T euler_12 = fma(-b_s1, euler_11, b_s1);
-    const T b_c1 = fma(-r22, euler_11, r22);
+    const T euler_8 = fma(-r22, r22, T(1.0));
+    const T euler_9 = euler_3 - euler_8;
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(-b_s1, euler_10, b_s1);
+    const T b_c1 = fma(-r22, euler_10, r22);
+    const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+    const T g_defect = fma(-euler_5, euler_5, euler_12);
+    const T euler_13 = fma(-a_c1, a_c1, T(1.0));
+    const T a_defect = fma(-a_s1, a_s1, euler_13);
     const V b2_g_1 = euler_7 * f[7];
     const V b2_g_2 = fma(euler_5, f[5], -b2_g_1);
     const V b2_g_3 = euler_5 * f[7];
@@ -228,8 +230,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b2_g_6 = fma(g_s2, f[4], -b2_g_5);
     const V b2_g_7 = g_s2 * f[8];
     const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
-    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_12;
-    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_12;
+    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_11;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_11;
     const T b2_e_scalar_3 = T(1.4142135623730951) * b_c1;
     const V b2_e_1 = b2_e_scalar_2 * b2_g_6;
     const V b2_e_2 = fma(b2_e_scalar_1, f[6], b2_e_1);
@@ -238,15 +240,16 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b2_e_5 = fma(-b2_e_scalar_2, b2_e_3, b2_g_6);
     const V b2_e_6 = fma(-b2_e_scalar_3, b2_e_3, b2_g_2);
     const V b2_o_1 = b_c1 * b2_g_8;
-    const V b2_o_2 = fma(euler_12, b2_g_4, -b2_o_1);
-    const V b2_o_3 = euler_12 * b2_g_8;
+    const V b2_o_2 = fma(euler_11, b2_g_4, -b2_o_1);
+    const V b2_o_3 = euler_11 * b2_g_8;
     const V b2_o_4 = fma(b_c1, b2_g_4, b2_o_3);
     const V b2_a_1 = a_c1 * b2_e_6;
     const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
     const V b2_a_3 = a_s1 * b2_e_6;
     const T a_2c1 = a_c1 + a_c1;
-    const T a_s2 = a_s1 * a_2c1;
-    const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+    const T a_2c1_over_n = fma(a_defect, a_2c1, a_2c1);
+    const T a_s2 = a_s1 * a_2c1_over_n;
+    const T a_c2 = fma(a_c1, a_2c1_over_n, T(-1.0));
     const V b2_a_4 = a_c2 * b2_e_5;
     const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
     const V b2_a_6 = a_s2 * b2_e_5;
@@ -273,8 +276,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_g_10 = fma(g_5, f[9], b3_g_9);
     const V b3_g_11 = g_5 * f[15];
     const V b3_g_12 = fma(g_c3, f[9], -b3_g_11);
-    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_12;
-    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_12;
+    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_11;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_11;
     const V b3_e_1 = b3_e_scalar_2 * b3_g_12;
     const V b3_e_2 = fma(b3_e_scalar_1, b3_g_4, b3_e_1);
     const V b3_e_3 = fma(-b2_e_scalar_3, b3_g_8, b3_e_2);
@@ -285,17 +288,17 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_o_2 = fma(T(-0.24206145913796356), b3_o_1, b3_g_2);
     const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
     const V b3_o_4 = fma(T(0.48412291827592713), b3_o_3, f[12]);
-    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_12;
+    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_11;
     const V b3_o_5 = b_c1 * b3_o_1;
     const V b3_o_6 = fma(b3_o_scalar_1, b3_o_3, -b3_o_5);
     const V b3_o_7 = b2_e_scalar_1 * b3_o_1;
     const V b3_o_8 = fma(b_c1, b3_o_3, b3_o_7);
     const T b_2c1 = b_c1 + b_c1;
-    const T b_s2 = euler_12 * b_2c1;
+    const T b_s2 = euler_11 * b_2c1;
     const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
     const T b_1 = b_c1 * b_c2;
-    const T b_2 = fma(euler_12, b_s2, -b_1);
-    const T b_3 = euler_12 * b_c2;
+    const T b_2 = fma(euler_11, b_s2, -b_1);
+    const T b_3 = euler_11 * b_c2;
     const T b_s3 = fma(b_c1, b_s2, b_3);
     const T b3_o_scalar_2 = T(0.81649658092772603) * b_s3;
     const T b3_o_scalar_3 = T(1.2247448713915889) * b_s3;
@@ -351,8 +354,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_g_14 = fma(g_s4, f[16], b4_g_13);
     const V b4_g_15 = g_s4 * f[24];
     const V b4_g_16 = fma(g_7, f[16], -b4_g_15);
-    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_12;
-    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_12;
+    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_11;
+    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_11;
     const T b4_e_scalar_3 = T(0.5) * b_c1;
     const T b4_e_scalar_4 = T(1.3228756555322954) * b_c1;
     const V b4_e_1 = b2_e_scalar_2 * b4_g_6;
@@ -384,8 +387,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_o_2 = fma(T(0.33071891388307384), b4_o_1, b4_g_8);
     const V b4_o_3 = fma(T(-0.88191710368819687), b4_g_12, b4_g_4);
     const V b4_o_4 = fma(T(0.49607837082461076), b4_o_3, b4_g_12);
-    const T b4_o_scalar_1 = T(1.247219128924647) * euler_12;
-    const T b4_o_scalar_2 = T(0.80178372573727319) * euler_12;
+    const T b4_o_scalar_1 = T(1.247219128924647) * euler_11;
+    const T b4_o_scalar_2 = T(0.80178372573727319) * euler_11;
     const V b4_o_5 = b_c1 * b4_o_1;
     const V b4_o_6 = fma(b4_o_scalar_2, b4_o_3, b4_o_5);
     const V b4_o_7 = b4_o_scalar_1 * b4_o_1;
@@ -412,7 +415,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_a_10 = fma(a_2, b4_o_15, -b4_a_9);
     const T a_4 = a_c2 * a_c2;
     const T a_5 = fma(a_s2, a_s2, -a_4);
-    const T a_2c2 = fma(a_2c1, a_2c1, T(-2.0));
+    const T a_2c2 = fma(a_2c1, a_2c1_over_n, T(-2.0));
     const T a_s4 = a_s2 * a_2c2;
     const V b4_a_11 = a_5 * b4_e_18;
     const V b4_a_12 = fma(a_s4, b4_o_14, b4_a_11);
@@ -453,8 +456,8 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b5_g_18 = fma(g_10, f[25], b5_g_17);
     const V b5_g_19 = g_10 * f[35];
     const V b5_g_20 = fma(g_c5, f[25], -b5_g_19);
-    const T b5_e_scalar_1 = T(0.4330127018922193) * euler_12;
-    const T b5_e_scalar_2 = T(0.96824583655185426) * euler_12;
+    const T b5_e_scalar_1 = T(0.4330127018922193) * euler_11;
+    const T b5_e_scalar_2 = T(0.96824583655185426) * euler_11;
     const T b5_e_scalar_3 = T(0.70710678118654757) * b_c1;
     const T b5_e_scalar_4 = T(1.2247448713915889) * b_c1;
     const V b5_e_1 = b5_e_scalar_1 * b5_g_12;
@@ -493,7 +496,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b5_o_9 = fma(T(-0.38490017945975052), b5_g_6, b5_o_8);
     const V b5_o_10 = fma(T(0.9759000729485332), b5_g_6, f[30]);
     const V b5_o_11 = fma(T(-0.28171808490950551), b5_g_14, b5_o_10);
-    const T b5_o_scalar_1 = T(0.66143782776614768) * euler_12;
+    const T b5_o_scalar_1 = T(0.66143782776614768) * euler_11;
     const T b5_o_scalar_2 = T(0.4375) * b_c1;
     const V b5_o_12 = b_c1 * b5_o_3;
     const V b5_o_13 = fma(b5_o_scalar_1, b5_o_7, -b5_o_12);
@@ -599,9 +602,9 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b6_e_8 = fma(T(1.1281521496355325), f[42], -b6_e_7);
     const V b6_e_9 = fma(T(-0.42640143271122088), b6_g_14, b6_e_8);
     const V b6_e_10 = fma(T(-1.7320508075688772), b6_g_22, b6_e_9);
-    const V b6_e_11 = euler_12 * b6_e_10;
+    const V b6_e_11 = euler_11 * b6_e_10;
     const V b6_e_12 = fma(b_2c1, b6_e_2, b6_e_11);
-    const V b6_e_13 = euler_12 * b6_e_12;
+    const V b6_e_13 = euler_11 * b6_e_12;
     const V b6_e_14 = fma(T(-0.36356465759738837), b6_e_13, f[42]);
     const V b6_e_15 = fma(T(0.42650186296349063), b6_e_13, b6_g_6);
     const V b6_e_16 = fma(T(0.13741452421357703), b6_e_13, b6_g_14);
@@ -651,7 +654,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b6_o_10 = fma(T(-0.9375), b6_o_8, b6_g_12);
     const V b6_o_11 = fma(T(-0.80282703616657058), b6_o_8, b6_g_20);
     const T b6_o_scalar_1 = T(0.7734375) * b_c1;
-    const T b6_o_scalar_2 = T(0.87945295496689302) * euler_12;
+    const T b6_o_scalar_2 = T(0.87945295496689302) * euler_11;
     const V b6_o_12 = b6_o_scalar_1 * b6_o_2;
     const V b6_o_13 = fma(b6_o_scalar_2, b6_o_9, b6_o_12);
     const V b6_o_14 = b6_o_scalar_2 * b6_o_2;
@@ -761,9 +764,9 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b7_e_7 = fma(T(1.1481983169296148), b7_g_4, -b7_e_6);
     const V b7_e_8 = fma(T(-0.14657549249448218), b7_g_20, b7_e_7);
     const V b7_e_9 = fma(T(1.3982410825748184), b7_g_28, b7_e_8);
-    const V b7_e_10 = euler_12 * b7_e_9;
+    const V b7_e_10 = euler_11 * b7_e_9;
     const V b7_e_11 = fma(b_2c1, b7_e_3, -b7_e_10);
-    const V b7_e_12 = euler_12 * b7_e_11;
+    const V b7_e_12 = euler_11 * b7_e_11;
     const V b7_e_13 = fma(T(0.57409915846480741), b7_e_12, b7_g_4);
     const V b7_e_14 = fma(T(-0.4198446513295126), b7_e_12, b7_g_12);
     const V b7_e_15 = fma(T(-0.07328774624724109), b7_e_12, b7_g_20);
@@ -822,7 +825,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b7_o_22 = fma(T(1.0801234497346435), b7_g_6, f[56]);
     const V b7_o_23 = fma(T(-0.46056618647183828), b7_g_14, b7_o_22);
     const V b7_o_24 = fma(T(-0.09032446046618911), b7_g_22, b7_o_23);
-    const T b7_o_scalar_1 = T(0.57409915846480741) * euler_12;
+    const T b7_o_scalar_1 = T(0.57409915846480741) * euler_11;
     const T b7_o_scalar_2 = T(0.32958984375) * b_c1;
     const V b7_o_25 = b_c1 * b7_o_6;
     const V b7_o_26 = fma(b7_o_scalar_1, b7_o_15, b7_o_25);
@@ -978,13 +981,15 @@ void rotate(const T* R, const V* f, V* out) {
         const T euler_5 = fma(r00, a_s1, -euler_4);
         const T euler_6 = r11 * a_c1;
         const T euler_7 = fma(r01, a_s1, -euler_6);
-        const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-        const T g_defect = fma(-euler_5, euler_5, euler_8);
-        const T euler_9 = fma(-r22, r22, T(1.0));
-        const T euler_10 = euler_3 - euler_9;
-        const T euler_11 = T(0.5) * euler_10;
-        const T euler_12 = fma(-b_s1, euler_11, b_s1);
-        const T b_c1 = fma(-r22, euler_11, r22);
+        const T euler_8 = fma(-r22, r22, T(1.0));
+        const T euler_9 = euler_3 - euler_8;
+        const T euler_10 = T(0.5) * euler_9;
+        const T euler_11 = fma(-b_s1, euler_10, b_s1);
+        const T b_c1 = fma(-r22, euler_10, r22);
+        const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+        const T g_defect = fma(-euler_5, euler_5, euler_12);
+        const T euler_13 = fma(-a_c1, a_c1, T(1.0));
+        const T a_defect = fma(-a_s1, a_s1, euler_13);
         const V b2_g_1 = euler_7 * f[7];
         const V b2_g_2 = fma(euler_5, f[5], -b2_g_1);
         const V b2_g_3 = euler_5 * f[7];
@@ -999,22 +1004,23 @@ void rotate(const T* R, const V* f, V* out) {
         const V b2_g_8 = fma(g_c2, f[4], b2_g_7);
         const T b_2c1 = b_c1 + b_c1;
         const V b2_e_1 = fma(T(1.7320508075688772), f[6], b2_g_6);
-        const V b2_e_2 = euler_12 * b2_e_1;
+        const V b2_e_2 = euler_11 * b2_e_1;
         const V b2_e_3 = fma(b_2c1, b2_g_2, b2_e_2);
-        const V b2_e_4 = euler_12 * b2_e_3;
+        const V b2_e_4 = euler_11 * b2_e_3;
         const V b2_e_5 = fma(T(-0.8660254037844386), b2_e_4, f[6]);
         const V b2_e_6 = fma(T(-0.5), b2_e_4, b2_g_6);
         const V b2_e_7 = fma(-b_c1, b2_e_3, b2_g_2);
         const V b2_o_1 = b_c1 * b2_g_8;
-        const V b2_o_2 = fma(euler_12, b2_g_4, -b2_o_1);
-        const V b2_o_3 = euler_12 * b2_g_8;
+        const V b2_o_2 = fma(euler_11, b2_g_4, -b2_o_1);
+        const V b2_o_3 = euler_11 * b2_g_8;
         const V b2_o_4 = fma(b_c1, b2_g_4, b2_o_3);
         const V b2_a_1 = a_c1 * b2_e_7;
         const V b2_a_2 = fma(a_s1, b2_o_4, -b2_a_1);
         const V b2_a_3 = a_s1 * b2_e_7;
         const T a_2c1 = a_c1 + a_c1;
-        const T a_s2 = a_s1 * a_2c1;
-        const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+        const T a_2c1_over_n = fma(a_defect, a_2c1, a_2c1);
+        const T a_s2 = a_s1 * a_2c1_over_n;
+        const T a_c2 = fma(a_c1, a_2c1_over_n, T(-1.0));
         const V b2_a_4 = a_c2 * b2_e_6;
         const V b2_a_5 = fma(a_s2, b2_o_2, -b2_a_4);
         const V b2_a_6 = a_s2 * b2_e_6;
@@ -1043,9 +1049,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b3_g_12 = fma(g_c3, f[9], -b3_g_11);
         const V b3_e_1 = T(1.2247448713915889) * b3_g_12;
         const V b3_e_2 = fma(T(1.5811388300841898), b3_g_4, b3_e_1);
-        const V b3_e_3 = euler_12 * b3_e_2;
+        const V b3_e_3 = euler_11 * b3_e_2;
         const V b3_e_4 = fma(b_2c1, b3_g_8, -b3_e_3);
-        const V b3_e_5 = euler_12 * b3_e_4;
+        const V b3_e_5 = euler_11 * b3_e_4;
         const V b3_e_6 = fma(T(0.79056941504209488), b3_e_5, b3_g_4);
         const V b3_e_7 = fma(T(0.61237243569579447), b3_e_5, b3_g_12);
         const V b3_e_8 = fma(-b_c1, b3_e_4, b3_g_8);
@@ -1055,14 +1061,14 @@ void rotate(const T* R, const V* f, V* out) {
         const V b3_o_4 = fma(T(0.59292706128157113), b3_o_3, f[12]);
         const V b3_o_5 = fma(T(-0.309487340104943), b3_o_4, b3_o_3);
         const V b3_o_6 = b_c1 * b3_o_1;
-        const V b3_o_7 = fma(euler_12, b3_o_5, -b3_o_6);
-        const V b3_o_8 = euler_12 * b3_o_1;
+        const V b3_o_7 = fma(euler_11, b3_o_5, -b3_o_6);
+        const V b3_o_8 = euler_11 * b3_o_1;
         const V b3_o_9 = fma(b_c1, b3_o_5, b3_o_8);
-        const T b_s2 = euler_12 * b_2c1;
+        const T b_s2 = euler_11 * b_2c1;
         const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
         const T b_1 = b_c1 * b_c2;
-        const T b_2 = fma(euler_12, b_s2, -b_1);
-        const T b_3 = euler_12 * b_c2;
+        const T b_2 = fma(euler_11, b_s2, -b_1);
+        const T b_3 = euler_11 * b_c2;
         const T b_s3 = fma(b_c1, b_s2, b_3);
         const V b3_o_10 = b_2 * b3_o_2;
         const V b3_o_11 = fma(b_s3, b3_o_4, -b3_o_10);
@@ -1122,9 +1128,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b4_e_3 = T(1.0690449676496976) * b4_g_6;
         const V b4_e_4 = fma(T(1.1952286093343936), f[20], -b4_e_3);
         const V b4_e_5 = fma(T(1.4142135623730951), b4_g_14, b4_e_4);
-        const V b4_e_6 = euler_12 * b4_e_5;
+        const V b4_e_6 = euler_11 * b4_e_5;
         const V b4_e_7 = fma(b_2c1, b4_e_1, b4_e_6);
-        const V b4_e_8 = euler_12 * b4_e_7;
+        const V b4_e_8 = euler_11 * b4_e_7;
         const V b4_e_9 = fma(T(-0.52291251658379723), b4_e_8, f[20]);
         const V b4_e_10 = fma(T(0.46770717334674267), b4_e_8, b4_g_6);
         const V b4_e_11 = fma(T(-0.61871843353822908), b4_e_8, b4_g_14);
@@ -1148,8 +1154,8 @@ void rotate(const T* R, const V* f, V* out) {
         const V b4_o_4 = fma(T(0.61871843353822908), b4_o_3, b4_g_12);
         const V b4_o_5 = fma(T(-0.32036587810904382), b4_o_4, b4_o_3);
         const V b4_o_6 = b_c1 * b4_o_1;
-        const V b4_o_7 = fma(euler_12, b4_o_5, b4_o_6);
-        const V b4_o_8 = euler_12 * b4_o_1;
+        const V b4_o_7 = fma(euler_11, b4_o_5, b4_o_6);
+        const V b4_o_8 = euler_11 * b4_o_1;
         const V b4_o_9 = fma(b_c1, b4_o_5, -b4_o_8);
         const V b4_o_10 = b_2 * b4_o_2;
         const V b4_o_11 = fma(b_s3, b4_o_4, b4_o_10);
@@ -1172,7 +1178,7 @@ void rotate(const T* R, const V* f, V* out) {
         const V b4_a_10 = fma(a_2, b4_o_17, -b4_a_9);
         const T a_4 = a_c2 * a_c2;
         const T a_5 = fma(a_s2, a_s2, -a_4);
-        const T a_2c2 = fma(a_2c1, a_2c1, T(-2.0));
+        const T a_2c2 = fma(a_2c1, a_2c1_over_n, T(-2.0));
         const T a_s4 = a_s2 * a_2c2;
         const V b4_a_11 = a_5 * b4_e_21;
         const V b4_a_12 = fma(a_s4, b4_o_15, b4_a_11);
@@ -1218,9 +1224,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b5_e_3 = T(0.70710678118654757) * b5_g_12;
         const V b5_e_4 = fma(T(1.5275252316519468), b5_g_4, -b5_e_3);
         const V b5_e_5 = fma(T(1.5811388300841898), b5_g_20, b5_e_4);
-        const V b5_e_6 = euler_12 * b5_e_5;
+        const V b5_e_6 = euler_11 * b5_e_5;
         const V b5_e_7 = fma(b_2c1, b5_e_1, b5_e_6);
-        const V b5_e_8 = euler_12 * b5_e_7;
+        const V b5_e_8 = euler_11 * b5_e_7;
         const V b5_e_9 = fma(T(-0.57282196186947998), b5_e_8, b5_g_4);
         const V b5_e_10 = fma(T(0.2651650429449553), b5_e_8, b5_g_12);
         const V b5_e_11 = fma(T(-0.59292706128157113), b5_e_8, b5_g_20);
@@ -1251,8 +1257,8 @@ void rotate(const T* R, const V* f, V* out) {
         const V b5_o_12 = fma(T(-0.16009414304152958), b5_o_9, b5_o_7);
         const V b5_o_13 = fma(T(0.57072498843515596), b5_o_11, b5_o_12);
         const V b5_o_14 = b_c1 * b5_o_3;
-        const V b5_o_15 = fma(euler_12, b5_o_9, -b5_o_14);
-        const V b5_o_16 = euler_12 * b5_o_3;
+        const V b5_o_15 = fma(euler_11, b5_o_9, -b5_o_14);
+        const V b5_o_16 = euler_11 * b5_o_3;
         const V b5_o_17 = fma(b_c1, b5_o_9, b5_o_16);
         const V b5_o_18 = b_2 * b5_o_4;
         const V b5_o_19 = fma(b_s3, b5_o_13, -b5_o_18);
@@ -1353,9 +1359,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b6_e_8 = fma(T(1.1281521496355325), f[42], -b6_e_7);
         const V b6_e_9 = fma(T(-0.42640143271122088), b6_g_14, b6_e_8);
         const V b6_e_10 = fma(T(-1.7320508075688772), b6_g_22, b6_e_9);
-        const V b6_e_11 = euler_12 * b6_e_10;
+        const V b6_e_11 = euler_11 * b6_e_10;
         const V b6_e_12 = fma(b_2c1, b6_e_2, b6_e_11);
-        const V b6_e_13 = euler_12 * b6_e_12;
+        const V b6_e_13 = euler_11 * b6_e_12;
         const V b6_e_14 = fma(T(-0.36356465759738837), b6_e_13, f[42]);
         const V b6_e_15 = fma(T(0.42650186296349063), b6_e_13, b6_g_6);
         const V b6_e_16 = fma(T(0.13741452421357703), b6_e_13, b6_g_14);
@@ -1406,8 +1412,8 @@ void rotate(const T* R, const V* f, V* out) {
         const V b6_o_12 = fma(T(-0.9375), b6_o_10, b6_g_12);
         const V b6_o_13 = fma(T(-0.80282703616657058), b6_o_10, b6_g_20);
         const V b6_o_14 = b_c1 * b6_o_4;
-        const V b6_o_15 = fma(euler_12, b6_o_11, b6_o_14);
-        const V b6_o_16 = euler_12 * b6_o_4;
+        const V b6_o_15 = fma(euler_11, b6_o_11, b6_o_14);
+        const V b6_o_16 = euler_11 * b6_o_4;
         const V b6_o_17 = fma(b_c1, b6_o_11, -b6_o_16);
         const V b6_o_18 = b_2 * b6_o_8;
         const V b6_o_19 = fma(b_s3, b6_o_12, b6_o_18);
@@ -1512,9 +1518,9 @@ void rotate(const T* R, const V* f, V* out) {
         const V b7_e_7 = fma(T(1.1481983169296148), b7_g_4, -b7_e_6);
         const V b7_e_8 = fma(T(-0.14657549249448218), b7_g_20, b7_e_7);
         const V b7_e_9 = fma(T(1.3982410825748184), b7_g_28, b7_e_8);
-        const V b7_e_10 = euler_12 * b7_e_9;
+        const V b7_e_10 = euler_11 * b7_e_9;
         const V b7_e_11 = fma(b_2c1, b7_e_3, -b7_e_10);
-        const V b7_e_12 = euler_12 * b7_e_11;
+        const V b7_e_12 = euler_11 * b7_e_11;
         const V b7_e_13 = fma(T(0.57409915846480741), b7_e_12, b7_g_4);
         const V b7_e_14 = fma(T(-0.4198446513295126), b7_e_12, b7_g_12);
         const V b7_e_15 = fma(T(-0.07328774624724109), b7_e_12, b7_g_20);
@@ -1577,8 +1583,8 @@ void rotate(const T* R, const V* f, V* out) {
         const V b7_o_26 = fma(T(-0.4061811972299616), b7_o_24, b7_o_25);
         const V b7_o_27 = fma(T(-0.51889406487255285), b7_o_21, b7_o_26);
         const V b7_o_28 = b_c1 * b7_o_6;
-        const V b7_o_29 = fma(euler_12, b7_o_27, -b7_o_28);
-        const V b7_o_30 = euler_12 * b7_o_6;
+        const V b7_o_29 = fma(euler_11, b7_o_27, -b7_o_28);
+        const V b7_o_30 = euler_11 * b7_o_6;
         const V b7_o_31 = fma(b_c1, b7_o_27, b7_o_30);
         const V b7_o_32 = b_2 * b7_o_8;
         const V b7_o_33 = fma(b_s3, b7_o_18, -b7_o_32);
@@ -1708,38 +1714,41 @@ void prepare(const T* R, T* scalars) {
     const T euler_5 = fma(r00, a_s1, -euler_4);
     const T euler_6 = r11 * a_c1;
     const T euler_7 = fma(r01, a_s1, -euler_6);
-    const T euler_8 = fma(-euler_7, euler_7, T(1.0));
-    const T g_defect = fma(-euler_5, euler_5, euler_8);
-    const T euler_9 = fma(-r22, r22, T(1.0));
-    const T euler_10 = euler_3 - euler_9;
-    const T euler_11 = T(0.5) * euler_10;
-    const T euler_12 = fma(-b_s1, euler_11, b_s1);
-    const T b_c1 = fma(-r22, euler_11, r22);
+    const T euler_8 = fma(-r22, r22, T(1.0));
+    const T euler_9 = euler_3 - euler_8;
+    const T euler_10 = T(0.5) * euler_9;
+    const T euler_11 = fma(-b_s1, euler_10, b_s1);
+    const T b_c1 = fma(-r22, euler_10, r22);
+    const T euler_12 = fma(-euler_7, euler_7, T(1.0));
+    const T g_defect = fma(-euler_5, euler_5, euler_12);
+    const T euler_13 = fma(-a_c1, a_c1, T(1.0));
+    const T a_defect = fma(-a_s1, a_s1, euler_13);
     const T g_1 = euler_7 + euler_7;
     const T g_2 = fma(g_defect, g_1, g_1);
     const T g_s2 = euler_5 * g_2;
     const T g_c2 = fma(euler_7, g_2, T(-1.0));
-    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_12;
-    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_12;
+    const T b2_e_scalar_1 = T(1.2247448713915889) * euler_11;
+    const T b2_e_scalar_2 = T(0.70710678118654757) * euler_11;
     const T b2_e_scalar_3 = T(1.4142135623730951) * b_c1;
     const T a_2c1 = a_c1 + a_c1;
-    const T a_s2 = a_s1 * a_2c1;
-    const T a_c2 = fma(a_c1, a_2c1, T(-1.0));
+    const T a_2c1_over_n = fma(a_defect, a_2c1, a_2c1);
+    const T a_s2 = a_s1 * a_2c1_over_n;
+    const T a_c2 = fma(a_c1, a_2c1_over_n, T(-1.0));
     const T g_3 = euler_7 * g_c2;
     const T g_c3 = fma(euler_5, g_s2, -g_3);
     const T g_4 = euler_5 * g_c2;
     const T g_5 = fma(euler_7, g_s2, g_4);
-    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_12;
-    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_12;
+    const T b3_e_scalar_1 = T(1.1180339887498949) * euler_11;
+    const T b3_e_scalar_2 = T(0.8660254037844386) * euler_11;
     const T b3_o_scalar_1 = T(0.9375) * b_c1;
-    const T b3_o_scalar_2 = T(0.76546554461974314) * euler_12;
+    const T b3_o_scalar_2 = T(0.76546554461974314) * euler_11;
     const T b3_o_scalar_3 = T(0.625) * b_c1;
     const T b_2c1 = b_c1 + b_c1;
-    const T b_s2 = euler_12 * b_2c1;
+    const T b_s2 = euler_11 * b_2c1;
     const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
     const T b_1 = b_c1 * b_c2;
-    const T b_2 = fma(euler_12, b_s2, -b_1);
-    const T b_3 = euler_12 * b_c2;
+    const T b_2 = fma(euler_11, b_s2, -b_1);
+    const T b_3 = euler_11 * b_c2;
     const T b_s3 = fma(b_c1, b_s2, b_3);
     const T b3_o_scalar_4 = T(0.9375) * b_2;
     const T b3_o_scalar_5 = T(0.76546554461974314) * b_s3;
@@ -1752,8 +1761,8 @@ void prepare(const T* R, T* scalars) {
     const T g_7 = fma(g_s2, g_s2, -g_6);
     const T g_2c2 = fma(g_1, g_2, T(-2.0));
     const T g_s4 = g_s2 * g_2c2;
-    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_12;
-    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_12;
+    const T b4_e_scalar_1 = T(0.79056941504209488) * euler_11;
+    const T b4_e_scalar_2 = T(0.93541434669348533) * euler_11;
     const T b4_e_scalar_3 = T(0.5) * b_c1;
     const T b4_e_scalar_4 = T(1.3228756555322954) * b_c1;
     const T b4_e_scalar_5 = T(1.0458250331675945) * b_s2;
@@ -1762,21 +1771,21 @@ void prepare(const T* R, T* scalars) {
     const T b4_e_scalar_8 = T(1.3228756555322954) * b_c2;
     const T b4_e_scalar_9 = T(0.5) * b_c2;
     const T b4_o_scalar_1 = T(0.875) * b_c1;
-    const T b4_o_scalar_2 = T(0.70156076002011403) * euler_12;
+    const T b4_o_scalar_2 = T(0.70156076002011403) * euler_11;
     const T b4_o_scalar_3 = T(0.5625) * b_c1;
     const T b4_o_scalar_4 = T(0.875) * b_2;
     const T b4_o_scalar_5 = T(0.70156076002011403) * b_s3;
     const T b4_o_scalar_6 = T(0.5625) * b_2;
     const T a_4 = a_c2 * a_c2;
     const T a_5 = fma(a_s2, a_s2, -a_4);
-    const T a_2c2 = fma(a_2c1, a_2c1, T(-2.0));
+    const T a_2c2 = fma(a_2c1, a_2c1_over_n, T(-2.0));
     const T a_s4 = a_s2 * a_2c2;
     const T g_8 = g_c2 * g_c3;
     const T g_c5 = fma(g_s2, g_5, g_8);
     const T g_9 = g_s2 * g_c3;
     const T g_10 = fma(g_c2, g_5, -g_9);
-    const T b5_e_scalar_1 = T(0.4330127018922193) * euler_12;
-    const T b5_e_scalar_2 = T(0.96824583655185426) * euler_12;
+    const T b5_e_scalar_1 = T(0.4330127018922193) * euler_11;
+    const T b5_e_scalar_2 = T(0.96824583655185426) * euler_11;
     const T b5_e_scalar_3 = T(0.70710678118654757) * b_c1;
     const T b5_e_scalar_4 = T(1.2247448713915889) * b_c1;
     const T b5_e_scalar_5 = T(0.81009258730098255) * b_s2;
@@ -1784,7 +1793,7 @@ void prepare(const T* R, T* scalars) {
     const T b5_e_scalar_7 = T(0.27950849718747373) * b_s2;
     const T b5_e_scalar_8 = T(1.2247448713915889) * b_c2;
     const T b5_e_scalar_9 = T(0.70710678118654757) * b_c2;
-    const T b5_o_scalar_1 = T(0.66143782776614768) * euler_12;
+    const T b5_o_scalar_1 = T(0.66143782776614768) * euler_11;
     const T b5_o_scalar_2 = T(0.4375) * b_c1;
     const T b5_o_scalar_3 = T(0.79549512883486595) * b_s3;
     const T b5_o_scalar_4 = T(0.6328125) * b_2;
@@ -1802,10 +1811,10 @@ void prepare(const T* R, T* scalars) {
     const T g_12 = fma(g_5, g_5, -g_11);
     const T g_2c3 = g_c3 + g_c3;
     const T g_13 = g_5 * g_2c3;
-    const T b6_e_scalar_1 = T(0.64043442287247487) * euler_12;
-    const T b6_e_scalar_2 = T(0.75130095501070671) * euler_12;
-    const T b6_e_scalar_3 = T(0.24206145913796356) * euler_12;
-    const T b6_e_scalar_4 = T(0.98325829515951713) * euler_12;
+    const T b6_e_scalar_1 = T(0.64043442287247487) * euler_11;
+    const T b6_e_scalar_2 = T(0.75130095501070671) * euler_11;
+    const T b6_e_scalar_3 = T(0.24206145913796356) * euler_11;
+    const T b6_e_scalar_4 = T(0.98325829515951713) * euler_11;
     const T b6_e_scalar_5 = T(0.27950849718747373) * b_c1;
     const T b6_e_scalar_6 = T(0.79549512883486595) * b_c1;
     const T b6_e_scalar_7 = T(1.1353688827865593) * b_c1;
@@ -1824,7 +1833,7 @@ void prepare(const T* R, T* scalars) {
     const T b6_e_scalar_20 = T(0.65550553010634471) * b_2;
     const T b6_e_scalar_21 = T(0.15309310892394862) * b_2;
     const T b6_o_scalar_1 = T(0.7734375) * b_c1;
-    const T b6_o_scalar_2 = T(0.87945295496689302) * euler_12;
+    const T b6_o_scalar_2 = T(0.87945295496689302) * euler_11;
     const T b6_o_scalar_3 = T(0.46875) * b_2;
     const T b6_o_scalar_4 = T(0.68465319688145765) * b_s3;
     const T b6_o_scalar_5 = T(0.64453125) * b_5;
@@ -1837,10 +1846,10 @@ void prepare(const T* R, T* scalars) {
     const T g_c7 = fma(g_5, g_s4, -g_14);
     const T g_15 = g_5 * g_7;
     const T g_s7 = fma(g_c3, g_s4, g_15);
-    const T b7_e_scalar_1 = T(0.81189881604791125) * euler_12;
-    const T b7_e_scalar_2 = T(0.59375) * euler_12;
-    const T b7_e_scalar_3 = T(0.10364452469860624) * euler_12;
-    const T b7_e_scalar_4 = T(0.98870575122227344) * euler_12;
+    const T b7_e_scalar_1 = T(0.81189881604791125) * euler_11;
+    const T b7_e_scalar_2 = T(0.59375) * euler_11;
+    const T b7_e_scalar_3 = T(0.10364452469860624) * euler_11;
+    const T b7_e_scalar_4 = T(0.98870575122227344) * euler_11;
     const T b7_e_scalar_5 = T(0.44194173824159222) * b_c1;
     const T b7_e_scalar_6 = T(0.82915619758884995) * b_c1;
     const T b7_e_scalar_7 = T(1.0569709078304852) * b_c1;
@@ -1856,7 +1865,7 @@ void prepare(const T* R, T* scalars) {
     const T b7_e_scalar_17 = T(1.0569709078304852) * b_2;
     const T b7_e_scalar_18 = T(0.90138781886599728) * b_2;
     const T b7_e_scalar_19 = T(0.2651650429449553) * b_2;
-    const T b7_o_scalar_1 = T(0.57409915846480741) * euler_12;
+    const T b7_o_scalar_1 = T(0.57409915846480741) * euler_11;
     const T b7_o_scalar_2 = T(0.32958984375) * b_c1;
     const T b7_o_scalar_3 = T(0.7927281808728639) * b_s3;
     const T b7_o_scalar_4 = T(0.62841796875) * b_2;
@@ -1893,7 +1902,7 @@ void prepare(const T* R, T* scalars) {
     scalars[14] = b2_e_scalar_1;
     scalars[15] = b2_e_scalar_3;
     scalars[16] = b_c1;
-    scalars[17] = euler_12;
+    scalars[17] = euler_11;
     scalars[18] = a_c1;
     scalars[19] = a_s1;
     scalars[20] = a_c2;
