@@ -1,6 +1,6 @@
 # zonal_add_kernels(TARGET ORDERS N... [LANGUAGE cpp])
 #
-# Has zonal-gen write the kernels of the given orders (1 to 20) when TARGET is built, and again when the program
+# Has zonal-gen write the kernels of the given orders (2 to 20) when TARGET is built, and again when the program
 # or a table of the orders changes. TARGET, and what links to it, can then include "zonal/orderNN.hpp".
 # Needs zonal-gen: built in this tree (ZONAL_BUILD_GENERATOR=ON) or installed with the package zonal.
 function(zonal_add_kernels target)
@@ -20,7 +20,7 @@ function(zonal_add_kernels target)
     message(FATAL_ERROR "${call}: LANGUAGE: found '${arg_LANGUAGE}', wanted cpp; correct the call")
   endif()
   if("${arg_ORDERS}" STREQUAL "")
-    message(FATAL_ERROR "${call}: ORDERS: found nothing, wanted at least one order from 1 to 20; correct the call")
+    message(FATAL_ERROR "${call}: ORDERS: found nothing, wanted at least one order from 2 to 20; correct the call")
   endif()
 
   if(TARGET zonal-gen)
@@ -36,8 +36,8 @@ function(zonal_add_kernels target)
   set(headers "")
   list(REMOVE_DUPLICATES arg_ORDERS)
   foreach(order IN LISTS arg_ORDERS)
-    if(NOT order MATCHES "^([1-9]|1[0-9]|20)$")
-      message(FATAL_ERROR "${call}: ORDERS: found '${order}', wanted whole numbers from 1 to 20; correct the call")
+    if(NOT order MATCHES "^([2-9]|1[0-9]|20)$")
+      message(FATAL_ERROR "${call}: ORDERS: found '${order}', wanted whole numbers from 2 to 20; correct the call")
     endif()
     set(digits ${order})
     if(order LESS 10)

@@ -45,11 +45,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 204 mul 69 add 387 fma 0 other;
 //             per extra vector 99 mul 0 add 255 fma 0 other
-// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double),
+// bound   : rotate_channels relative error 1.1e-06 (float), 2.3e-15 (double),
 //             for det R = +1; excess 2.00
-//           rotate relative error 1.7e-06 (float), 4.4e-15 (double),
+//           rotate relative error 7.7e-07 (float), 1.7e-15 (double),
 //             for det R = +1; excess 2.00
-//           apply relative error 1.8e-06 (float), 4.5e-15 (double),
+//           apply relative error 1.1e-06 (float), 2.3e-15 (double),
 //             for det R = +1; excess 2.00
 //           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double),
 //             for det R = +1 or -1; excess 2.13

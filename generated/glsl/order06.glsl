@@ -46,11 +46,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 358 mul 96 add 696 fma 0 other;
 //             per extra vector 177 mul 0 add 500 fma 0 other
-// bound   : rotate_channels relative error 2.8e-06 (float), 6.8e-15 (double),
+// bound   : rotate_channels relative error 1.1e-06 (float), 2.9e-15 (double),
 //             for det R = +1; excess 2.50
-//           rotate relative error 2.8e-06 (float), 6.8e-15 (double),
+//           rotate relative error 1.1e-06 (float), 2.9e-15 (double),
 //             for det R = +1; excess 2.50
-//           apply relative error 2.8e-06 (float), 6.8e-15 (double),
+//           apply relative error 1.1e-06 (float), 2.9e-15 (double),
 //             for det R = +1; excess 2.50
 //           rotate_accurate relative error 3.1e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 2.66

@@ -45,11 +45,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 204 mul 69 add 387 fma 0 other;
 //             per extra vector 99 mul 0 add 255 fma 0 other
-// bound   : rotate_channels relative error 1.7e-06 (float), 4.4e-15 (double),
+// bound   : rotate_channels relative error 1.1e-06 (float), 2.3e-15 (double),
 //             for det R = +1; excess 2.00
-//           rotate relative error 1.7e-06 (float), 4.4e-15 (double),
+//           rotate relative error 7.7e-07 (float), 1.7e-15 (double),
 //             for det R = +1; excess 2.00
-//           apply relative error 1.8e-06 (float), 4.5e-15 (double),
+//           apply relative error 1.1e-06 (float), 2.3e-15 (double),
 //             for det R = +1; excess 2.00
 //           rotate_accurate relative error 2.9e-07 (float), 4.9e-16 (double),
 //             for det R = +1 or -1; excess 2.13
@@ -124,20 +124,20 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 1.7e-06;
-inline constexpr double kRotateChannelsBoundDouble = 4.4e-15;
+inline constexpr double kRotateChannelsBoundFloat = 1.1e-06;
+inline constexpr double kRotateChannelsBoundDouble = 2.3e-15;
 inline constexpr double kRotateChannelsExcess = 2.00;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.7e-06;
-inline constexpr double kRotateBoundDouble = 4.4e-15;
+inline constexpr double kRotateBoundFloat = 7.7e-07;
+inline constexpr double kRotateBoundDouble = 1.7e-15;
 inline constexpr double kRotateExcess = 2.00;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.8e-06;
-inline constexpr double kApplyBoundDouble = 4.5e-15;
+inline constexpr double kApplyBoundFloat = 1.1e-06;
+inline constexpr double kApplyBoundDouble = 2.3e-15;
 inline constexpr double kApplyExcess = 2.00;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,

@@ -47,11 +47,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 591 mul 140 add 1203 fma 0 other;
 //             per extra vector 288 mul 0 add 836 fma 0 other
-// bound   : rotate_channels relative error 1.4e-06 (float), 2.7e-15 (double),
+// bound   : rotate_channels relative error 8.9e-07 (float), 1.9e-15 (double),
 //             for det R = +1; excess 3.00
-//           rotate relative error 1.5e-06 (float), 2.6e-15 (double),
+//           rotate relative error 8.8e-07 (float), 1.7e-15 (double),
 //             for det R = +1; excess 3.00
-//           apply relative error 1.4e-06 (float), 2.7e-15 (double),
+//           apply relative error 9.7e-07 (float), 1.9e-15 (double),
 //             for det R = +1; excess 3.00
 //           rotate_accurate relative error 3.7e-07 (float), 6.0e-16 (double),
 //             for det R = +1 or -1; excess 3.19
@@ -126,20 +126,20 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 1.4e-06;
-inline constexpr double kRotateChannelsBoundDouble = 2.7e-15;
+inline constexpr double kRotateChannelsBoundFloat = 8.9e-07;
+inline constexpr double kRotateChannelsBoundDouble = 1.9e-15;
 inline constexpr double kRotateChannelsExcess = 3.00;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.5e-06;
-inline constexpr double kRotateBoundDouble = 2.6e-15;
+inline constexpr double kRotateBoundFloat = 8.8e-07;
+inline constexpr double kRotateBoundDouble = 1.7e-15;
 inline constexpr double kRotateExcess = 3.00;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.4e-06;
-inline constexpr double kApplyBoundDouble = 2.7e-15;
+inline constexpr double kApplyBoundFloat = 9.7e-07;
+inline constexpr double kApplyBoundDouble = 1.9e-15;
 inline constexpr double kApplyExcess = 3.00;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,

@@ -48,11 +48,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 891 mul 192 add 1707 fma 0 other;
 //             per extra vector 438 mul 0 add 1200 fma 0 other
-// bound   : rotate_channels relative error 1.4e-06 (float), 3.1e-15 (double),
+// bound   : rotate_channels relative error 1.2e-06 (float), 1.8e-15 (double),
 //             for det R = +1; excess 3.50
-//           rotate relative error 1.4e-06 (float), 3.1e-15 (double),
+//           rotate relative error 1.2e-06 (float), 1.8e-15 (double),
 //             for det R = +1; excess 3.50
-//           apply relative error 1.4e-06 (float), 3.1e-15 (double),
+//           apply relative error 1.0e-06 (float), 2.0e-15 (double),
 //             for det R = +1; excess 3.50
 //           rotate_accurate relative error 4.0e-07 (float), 8.2e-16 (double),
 //             for det R = +1 or -1; excess 3.72
@@ -127,20 +127,20 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 1.4e-06;
-inline constexpr double kRotateChannelsBoundDouble = 3.1e-15;
+inline constexpr double kRotateChannelsBoundFloat = 1.2e-06;
+inline constexpr double kRotateChannelsBoundDouble = 1.8e-15;
 inline constexpr double kRotateChannelsExcess = 3.50;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.4e-06;
-inline constexpr double kRotateBoundDouble = 3.1e-15;
+inline constexpr double kRotateBoundFloat = 1.2e-06;
+inline constexpr double kRotateBoundDouble = 1.8e-15;
 inline constexpr double kRotateExcess = 3.50;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.4e-06;
-inline constexpr double kApplyBoundDouble = 3.1e-15;
+inline constexpr double kApplyBoundFloat = 1.0e-06;
+inline constexpr double kApplyBoundDouble = 2.0e-15;
 inline constexpr double kApplyExcess = 3.50;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,

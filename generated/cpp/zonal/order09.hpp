@@ -49,11 +49,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 1281 mul 235 add 2577 fma 0 other;
 //             per extra vector 633 mul 0 add 1889 fma 0 other
-// bound   : rotate_channels relative error 2.1e-06 (float), 4.1e-15 (double),
+// bound   : rotate_channels relative error 1.4e-06 (float), 1.9e-15 (double),
 //             for det R = +1; excess 4.00
-//           rotate relative error 2.1e-06 (float), 4.1e-15 (double),
+//           rotate relative error 1.5e-06 (float), 2.6e-15 (double),
 //             for det R = +1; excess 4.00
-//           apply relative error 2.2e-06 (float), 4.1e-15 (double),
+//           apply relative error 1.5e-06 (float), 3.0e-15 (double),
 //             for det R = +1; excess 4.00
 //           rotate_accurate relative error 5.6e-07 (float), 9.6e-16 (double),
 //             for det R = +1 or -1; excess 4.24
@@ -128,20 +128,20 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 2.1e-06;
-inline constexpr double kRotateChannelsBoundDouble = 4.1e-15;
+inline constexpr double kRotateChannelsBoundFloat = 1.4e-06;
+inline constexpr double kRotateChannelsBoundDouble = 1.9e-15;
 inline constexpr double kRotateChannelsExcess = 4.00;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 2.1e-06;
-inline constexpr double kRotateBoundDouble = 4.1e-15;
+inline constexpr double kRotateBoundFloat = 1.5e-06;
+inline constexpr double kRotateBoundDouble = 2.6e-15;
 inline constexpr double kRotateExcess = 4.00;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 2.2e-06;
-inline constexpr double kApplyBoundDouble = 4.1e-15;
+inline constexpr double kApplyBoundFloat = 1.5e-06;
+inline constexpr double kApplyBoundDouble = 3.0e-15;
 inline constexpr double kApplyExcess = 4.00;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,

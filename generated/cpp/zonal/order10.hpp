@@ -50,11 +50,11 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 1773 mul 301 add 3558 fma 0 other;
 //             per extra vector 879 mul 0 add 2642 fma 0 other
-// bound   : rotate_channels relative error 2.1e-06 (float), 4.2e-15 (double),
+// bound   : rotate_channels relative error 1.4e-06 (float), 2.8e-15 (double),
 //             for det R = +1; excess 4.50
-//           rotate relative error 2.1e-06 (float), 4.2e-15 (double),
+//           rotate relative error 1.5e-06 (float), 2.9e-15 (double),
 //             for det R = +1; excess 4.50
-//           apply relative error 2.1e-06 (float), 4.2e-15 (double),
+//           apply relative error 1.4e-06 (float), 3.2e-15 (double),
 //             for det R = +1; excess 4.50
 //           rotate_accurate relative error 5.5e-07 (float), 1.2e-15 (double),
 //             for det R = +1 or -1; excess 4.77
@@ -218,20 +218,20 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 2.1e-06;
-inline constexpr double kRotateChannelsBoundDouble = 4.2e-15;
+inline constexpr double kRotateChannelsBoundFloat = 1.4e-06;
+inline constexpr double kRotateChannelsBoundDouble = 2.8e-15;
 inline constexpr double kRotateChannelsExcess = 4.50;
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 2.1e-06;
-inline constexpr double kRotateBoundDouble = 4.2e-15;
+inline constexpr double kRotateBoundFloat = 1.5e-06;
+inline constexpr double kRotateBoundDouble = 2.9e-15;
 inline constexpr double kRotateExcess = 4.50;
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 2.1e-06;
-inline constexpr double kApplyBoundDouble = 4.2e-15;
+inline constexpr double kApplyBoundFloat = 1.4e-06;
+inline constexpr double kApplyBoundDouble = 3.2e-15;
 inline constexpr double kApplyExcess = 4.50;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
