@@ -117,9 +117,10 @@ std::vector<Case> hard_rotations(std::mt19937_64& random) {
         cases.push_back({"half turn about a random axis", rounded(turn(random_axis(random), kPi))});
         cases.push_back({"mirror", scaled(random_rotation(random), -1)});
     }
-    for (int exponent = 1; exponent <= 8; ++exponent) {
+    // Every angle once, then every angle again: who takes only the first cases of a kind has all of them.
+    for (int k = 0; k < 20; ++k) {
         for (const Real pole : {Real(0), kPi}) {
-            for (int k = 0; k < 20; ++k) {
+            for (int exponent = 1; exponent <= 8; ++exponent) {
                 const Exact tilt = turn({0, 1, 0}, pole + std::pow(Real(10), -exponent));
                 const Exact before = turn({0, 0, 1}, angle(random)), after = turn({0, 0, 1}, angle(random));
                 cases.push_back({"tilt from a pole", rounded(product_of(after, product_of(tilt, before)))});
