@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,12 +9,15 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "batch/targets.hpp"
+#include "support/accuracy.hpp"
+#include "support/banner.hpp"
 #include "support/oracle.hpp"
 #include "zonal/basis.hpp"
 #include "zonal/batch.hpp"
@@ -200,6 +206,166 @@ std::string message_of(const std::function<void()>& call) {
 
 constexpr Form kForms[] = {Form::matrices, Form::quaternions, Form::one_for_all};
 
+/// The kernel that a batch runs, whose error is published: everything at once where that is faster, else the
+/// two halves.
+std::string kernel_that_runs(int order, Form form, int channels) {
+    const bool is_at_once = form != Form::one_for_all && channels == 1 && (order <= 4 || order > 6);
+    if (!is_at_once) return "apply";
+    return order == 4 ? "rotate_polynomial" : "rotate";
+}
+
+/// On every instruction set: banners promise it for fused instructions, zonal/batch.hpp for all.
+template <class T>
+double published_bound(int order, Form form, int channels) {
+    const zonal::banner::Bound bound = zonal::banner::bound(order, kernel_that_runs(order, form, channels));
+    return std::is_same_v<T, float> ? bound.float_bound : bound.double_bound;
+}
+
+using Problems = std::vector<zonal::accuracy::Problem>;
+
+/// A batch that turns the signal of every problem, as a kernel that turns one after another. Each vector has
+/// its problem's signal in one channel and those of its neighbours in the others. `quaternions` take the
+/// place of the problems' matrices, where there are any.
+template <class T>
+class BatchAsKernel {
+  public:
+    BatchAsKernel(std::string_view target, const Problems& problems, int order, Form form, int channels,
+                  const std::vector<Eigen::Quaternion<T>>& quaternions = {})
+        : target_(target),
+          batch_({.order = order,
+                  .layout = {.count = form == Form::one_for_all ? kTogether : problems.size(),
+                             .channels = channels},
+                  .form = form}) {
+        if (form == Form::one_for_all) return;
+        for (std::size_t k = 0; k < problems.size(); ++k) {
+            T* const rotation = batch_.rotation_values.data() + k * batch_.rotation_stride;
+            if (form == Form::quaternions)
+                std::copy_n(quaternions[k].coeffs().data(), 4, rotation);
+            else
+                std::transform(problems[k].rotation.begin(), problems[k].rotation.end(), rotation,
+                               [](double entry) { return static_cast<T>(entry); });
+            for (int channel = 0; channel < channels; ++channel) {
+                const auto& signal = problems[(k + channel) % problems.size()].signal;
+                put(k, (k + channel) % channels, std::vector<T>(signal.begin(), signal.end()).data());
+            }
+        }
+        turn();
+    }
+
+    /// The problems' next result.
+    void operator()(const T* R, const T* f, T* out) {
+        const std::size_t k = next_++;
+        const std::size_t row = k % batch_.c.layout.count, channel = k % batch_.c.layout.channels;
+        if (batch_.c.form == Form::one_for_all) {
+            batch_.matrices.front() =
+                RotationMatrix<T>(Eigen::Map<const Eigen::Matrix<T, 3, 3, Eigen::RowMajor>>(R));
+            put(row, channel, f);
+            turn();
+        }
+        std::ranges::copy(batch_.vector(batch_.out, row, channel), out);
+    }
+
+  private:
+    /// As many vectors as the largest pack has lanes, and one more.
+    static constexpr std::size_t kTogether = 17;
+
+    void put(std::size_t row, std::size_t channel, const T* f) {
+        for (std::size_t i = 0; i < batch_.c.coefficients(); ++i)
+            batch_.in[batch_.c.index(row, channel, i)] = f[i];
+    }
+    void turn() {
+        ASSERT_TRUE(zonal::batch::choose_target(target_));
+        batch_.rotate();
+    }
+
+    std::string_view target_;
+    Batch<T> batch_;
+    std::size_t next_ = 0;
+};
+
+/// Every result by the oracle, within what is published of the kernel that runs.
+template <class T>
+void expect_within_published_bounds(const Problems& problems, const zonal::oracle::Rotation& exact,
+                                    const std::vector<std::string_view>& targets,
+                                    const std::vector<Form>& forms,
+                                    const std::vector<Eigen::Quaternion<T>>& quaternions = {}) {
+    const int order = exact.order();
+    std::vector<zonal::accuracy::Contestant<T>> contestants;
+    std::vector<double> bounds;
+    for (const std::string_view target : targets) {
+        for (const Form form : forms) {
+            for (const int channels : {1, 3}) {
+                const auto batch =
+                    std::make_shared<BatchAsKernel<T>>(target, problems, order, form, channels, quaternions);
+                contestants.push_back(
+                    {std::string(target) + ", form " + std::to_string(static_cast<int>(form)) + ", " +
+                         std::to_string(channels) + " channels",
+                     [batch](const T* R, const T* f, T* out) { (*batch)(R, f, out); },
+                     zonal::banner::bound(order, kernel_that_runs(order, form, channels)).excess});
+                bounds.push_back(published_bound<T>(order, form, channels));
+            }
+        }
+    }
+    const auto worst = zonal::accuracy::worst_errors<T>(exact, problems, contestants);
+    for (std::size_t k = 0; k < worst.size(); ++k)
+        EXPECT_LE(worst[k].error, bounds[k])
+            << "order " << order << ", " << contestants[k].name << ": " << worst[k].name;
+}
+
+/// Random rotations before the hard ones; of those of a kind beyond the first hundred, one in so many.
+constexpr int kRandomRotations = 50, kThinning = 30;
+
+/// The oracle's time grows as order^4.
+std::vector<int> judged_orders() {
+    std::vector<int> orders;
+    for (const int order : zonal::compiled_orders())
+        if (order <= 8) orders.push_back(order);
+    return orders;
+}
+
+/// The matrices that a batch makes of quaternions: those by which it turns the three functions of band 1, of
+/// which order 2 makes exact copies.
+template <class T>
+std::vector<RotationMatrix<T>> matrices_in_use(const std::vector<Eigen::Quaternion<T>>& quaternions) {
+    const std::size_t axis_of[] = {1, 2, 0};  // band 1 is y, z, x
+    std::vector<T> rotations, in(12 * quaternions.size(), T(0)), out(in.size());
+    for (std::size_t k = 0; k < 3 * quaternions.size(); ++k) {
+        rotations.insert(rotations.end(), quaternions[k / 3].coeffs().data(),
+                         quaternions[k / 3].coeffs().data() + 4);
+        in[4 * k + 1 + k % 3] = 1;
+    }
+    zonal::rotate_each(2, zonal::RotationQuaternions<T>(rotations), {.count = 3 * quaternions.size()},
+                       std::span<const T>(in), std::span<T>(out));
+    std::vector<RotationMatrix<T>> matrices;
+    for (std::size_t k = 0; k < quaternions.size(); ++k) {
+        Eigen::Matrix<T, 3, 3> matrix;
+        for (std::size_t from = 0; from < 3; ++from)
+            for (std::size_t to = 0; to < 3; ++to)
+                matrix(axis_of[to], axis_of[from]) = out[4 * (3 * k + from) + 1 + to];
+        matrices.emplace_back(matrix);
+    }
+    return matrices;
+}
+
+using ExactQuaternion = Eigen::Quaternion<zonal::oracle::Real>;
+
+/// The rotations of problems that a quaternion can be, in T.
+template <class T>
+std::vector<Eigen::Quaternion<T>> quaternions_of(Problems& problems) {
+    std::vector<Eigen::Quaternion<T>> quaternions;
+    std::erase_if(problems, [&](const zonal::accuracy::Problem& problem) {
+        using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+        const Matrix matrix = Eigen::Map<const Matrix>(problem.rotation.data());
+        const bool is_rotation = !problem.is_noisy && matrix.determinant() > 0;
+        if (is_rotation) {
+            quaternions.push_back(
+                ExactQuaternion(matrix.cast<zonal::oracle::Real>()).normalized().template cast<T>());
+        }
+        return !is_rotation;
+    });
+    return quaternions;
+}
+
 /// Every case runs on every instruction set that this processor has.
 template <class T>
 class runtime_batch : public testing::Test {
@@ -299,6 +465,160 @@ TYPED_TEST(runtime_batch, mirror_matches_pointwise_oracle) {
             // R itself lacks at most (N-1)/2 times its orthonormality error, below 2 epsilon.
             EXPECT_LE(static_cast<double>(std::sqrt(error / norm)), tolerance<TypeParam>(order, false))
                 << "order " << order << ", vector " << k;
+        }
+    });
+}
+
+TYPED_TEST(runtime_batch, hard_rotations_and_signals_are_within_the_published_bounds) {
+    for (const int order : judged_orders()) {
+        const Problems problems =
+            zonal::accuracy::problems<TypeParam>(order, kRandomRotations, kThinning, 1000 + order);
+        expect_within_published_bounds<TypeParam>(problems, zonal::oracle::Rotation(order),
+                                                  zonal::batch::runnable_targets(),
+                                                  {Form::matrices, Form::one_for_all});
+    }
+}
+
+TYPED_TEST(runtime_batch, quaternions_become_matrices_but_for_rounding) {
+    using T = TypeParam;
+    if (zonal::compiled_orders().front() != 2) GTEST_SKIP() << "order 2 shows the matrices";
+    Problems problems = zonal::accuracy::problems<T>(2, 1000, 1, 17);
+    const std::vector<Eigen::Quaternion<T>> quaternions = quaternions_of<T>(problems);
+    const double unit = static_cast<double>(std::numeric_limits<T>::epsilon()) / 2;
+    for (const std::string_view target : zonal::batch::runnable_targets()) {
+        ASSERT_TRUE(zonal::batch::choose_target(target));
+        SCOPED_TRACE(target);
+        const std::vector<RotationMatrix<T>> found = matrices_in_use(quaternions);
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            // The polynomial of the quaternion as it is given. On the diagonal, 1 - 2 (y^2 + z^2), products,
+            // their sum and the difference round 2, 2 and 1 at the most; elsewhere 1 and 1.
+            const auto wanted = quaternions[k].template cast<zonal::oracle::Real>().toRotationMatrix();
+            const Eigen::Matrix<zonal::oracle::Real, 3, 3> error =
+                (found[k].matrix().template cast<zonal::oracle::Real>() - wanted).cwiseAbs();
+            for (int i = 0; i < 9; ++i)
+                ASSERT_LE(static_cast<double>(error(i / 3, i % 3)), (i % 4 == 0 ? 5.001 : 2.001) * unit)
+                    << problems[k].name << ", value " << i;
+        }
+    }
+}
+
+TYPED_TEST(runtime_batch, hard_quaternions_are_within_the_published_bounds) {
+    using T = TypeParam;
+    if (zonal::compiled_orders().front() != 2) GTEST_SKIP() << "order 2 shows the matrices";
+    for (const int order : judged_orders()) {
+        Problems problems = zonal::accuracy::problems<T>(order, kRandomRotations, kThinning, 2000 + order);
+        const std::vector<Eigen::Quaternion<T>> quaternions = quaternions_of<T>(problems);
+        const zonal::oracle::Rotation exact(order);
+        for (const std::string_view target : zonal::batch::runnable_targets()) {
+            ASSERT_TRUE(zonal::batch::choose_target(target));
+            const std::vector<RotationMatrix<T>> matrices = matrices_in_use(quaternions);
+            for (std::size_t k = 0; k < matrices.size(); ++k)
+                std::copy_n(matrices[k].data(), 9, problems[k].rotation.begin());
+            expect_within_published_bounds<T>(problems, exact, {target}, {Form::quaternions}, quaternions);
+        }
+    }
+}
+
+TYPED_TEST(runtime_batch, identity_is_right_when_denormals_are_flushed) {
+#if defined(__SSE__)
+    using T = TypeParam;
+    this->on_every_target_and_order([](int order) {
+        for (const Form form : kForms) {
+            for (const int channels : {1, 3}) {
+                Batch<T> batch({.order = order, .layout = {.count = 33, .channels = channels}, .form = form});
+                const T identity[] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, unit[] = {0, 0, 0, 1};
+                for (std::size_t k = 0; k < batch.matrices.size(); ++k) {
+                    batch.matrices[k] = RotationMatrix<T>();
+                    std::copy_n(form == Form::quaternions ? unit : identity, batch.rotation_stride,
+                                batch.rotation_values.data() + k * batch.rotation_stride);
+                }
+                const unsigned state = _mm_getcsr();
+                _mm_setcsr(state | 0x8040);  // flush to zero, denormals are zero
+                batch.rotate();
+                _mm_setcsr(state);
+                const double bound = published_bound<T>(order, form, channels);
+                for (std::size_t k = 0; k < batch.c.layout.count; ++k) {
+                    for (int channel = 0; channel < channels; ++channel) {
+                        double error = 0, norm = 0;
+                        const std::vector<T> f = batch.vector(batch.in, k, channel);
+                        const std::vector<T> found = batch.vector(batch.out, k, channel);
+                        for (std::size_t i = 0; i < f.size(); ++i) {
+                            error += std::pow(static_cast<double>(found[i]) - static_cast<double>(f[i]), 2);
+                            norm += std::pow(static_cast<double>(f[i]), 2);
+                        }
+                        ASSERT_LE(std::sqrt(error / norm), bound)
+                            << "order " << order << ", form " << static_cast<int>(form) << ", vector " << k;
+                    }
+                }
+            }
+        }
+    });
+#endif
+}
+
+TYPED_TEST(runtime_batch, denormals_keep_their_absolute_accuracy) {
+    using T = TypeParam;
+    using zonal::oracle::Real;
+    constexpr T kSmallest = std::numeric_limits<T>::denorm_min();
+    std::vector<zonal::oracle::Rotation> oracles;
+    for (const int order : judged_orders()) oracles.emplace_back(order);
+    for (const std::string_view target : zonal::batch::runnable_targets()) {
+        ASSERT_TRUE(zonal::batch::choose_target(target));
+        SCOPED_TRACE(target);
+        for (const zonal::oracle::Rotation& exact : oracles) {
+            const int order = exact.order();
+            for (const Form form : {Form::matrices, Form::one_for_all}) {
+                for (const int channels : {1, 3}) {
+                    Batch<T> batch(
+                        {.order = order, .layout = {.count = 17, .channels = channels}, .form = form});
+                    for (T& value : batch.in) value = std::round(1000 * value) * kSmallest;
+                    batch.rotate();
+                    for (const std::size_t k : {0, 7, 15, 16}) {
+                        const std::size_t channel = k % channels;
+                        const std::vector<T> f = batch.vector(batch.in, k, channel);
+                        const std::vector<T> found = batch.vector(batch.out, k, channel);
+                        zonal::oracle::Matrix3 matrix;
+                        std::copy_n(batch.matrix(k).data(), 9, matrix.begin());
+                        const std::vector<Real> wanted = exact(matrix, {f.begin(), f.end()});
+                        for (std::size_t i = 0; i < f.size(); ++i)
+                            ASSERT_LE(std::abs(found[i] - wanted[i]) / kSmallest, 4 * order * order)
+                                << "order " << order << ", form " << static_cast<int>(form) << ", "
+                                << channels << " channels, vector " << k << ", coefficient " << i;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TYPED_TEST(runtime_batch, nan_in_one_coefficient_leaves_the_bits_of_all_others) {
+    using T = TypeParam;
+    this->on_every_target_and_order([](int order) {
+        for (const Form form : kForms) {
+            for (const int channels : {1, 3}) {
+                const Case c{.order = order, .layout = {.count = 19, .channels = channels}, .form = form};
+                Batch<T> clean(c);
+                clean.rotate();
+                for (const std::size_t bad : {1, 18}) {  // in a pack, and in the rest
+                    for (int band = 0; band < order; ++band) {
+                        const std::size_t channel = band % channels;
+                        Batch<T> batch(c);
+                        batch.in[c.index(bad, channel, band * band + band)] =
+                            std::numeric_limits<T>::quiet_NaN();
+                        batch.rotate();
+                        bool is_met = false;
+                        for (int i = band * band; i < (band + 1) * (band + 1); ++i) {
+                            T& value = batch.out[c.index(bad, channel, i)];
+                            is_met |= std::isnan(value);
+                            value = clean.out[c.index(bad, channel, i)];
+                        }
+                        EXPECT_TRUE(is_met);
+                        EXPECT_EQ(batch.out, clean.out)
+                            << "order " << order << ", form " << static_cast<int>(form) << ", vector " << bad
+                            << ", channel " << channel << ", band " << band;
+                    }
+                }
+            }
         }
     });
 }
