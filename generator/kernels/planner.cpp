@@ -142,12 +142,12 @@ Kernel build_plan(int order, const Plan& plan) {
     return builder.take();
 }
 
-bool is_fit_for(const BandPlan& plan, const Workload& workload) {
-    // Shears wait for one another, rows of a product do not: with as many instructions a vector, packs of
-    // many vectors took 5 to 7 % longer by shears, whose set-up is smaller.
-    constexpr int kMostVectorsSheared = 3;
+bool is_fit_for(const BandPlan& plan, int order, const Workload& workload) {
+    // Shears wait for one another, rows of a product do not: with as many instructions a vector but less
+    // set-up, packs of many vectors took 5 to 7 % longer by shears, and three channels of order 8 took 8 %.
+    constexpr int kMostVectorsSheared = 3, kLastOrderSheared = 6;
     const bool is_sheared = plan.forms.even == PartForm::sheared || plan.forms.odd == PartForm::sheared;
-    if (is_sheared && workload.vectors > kMostVectorsSheared) return false;
+    if (is_sheared && (workload.vectors > kMostVectorsSheared || order > kLastOrderSheared)) return false;
     return !workload.takes_mirrors || !needs_proper_rotation(plan);
 }
 
@@ -174,7 +174,7 @@ Plan cheapest_plan(int order, const Workload& workload) {
     std::vector<std::vector<BandPlan>> candidates;
     for (int l = 1; l < order; ++l) {
         std::vector<Alternative> all = alternatives(order, l);
-        std::erase_if(all, [&](const Alternative& a) { return !is_fit_for(a.plan, workload); });
+        std::erase_if(all, [&](const Alternative& a) { return !is_fit_for(a.plan, order, workload); });
         std::stable_sort(all.begin(), all.end(), [&](const Alternative& a, const Alternative& b) {
             return weight(a.cost, workload) < weight(b.cost, workload);
         });

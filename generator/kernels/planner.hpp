@@ -36,8 +36,8 @@ int weight(const graph::Kernel& kernel, const Workload& workload);
 /// texts are the caller's.
 graph::Kernel build_plan(int order, const Plan& plan);
 
-/// Whether a plan for the workload may turn a band so.
-bool is_fit_for(const BandPlan& plan, const Workload& workload);
+/// Whether a plan of an order for a workload may turn a band so.
+bool is_fit_for(const BandPlan& plan, int order, const Workload& workload);
 
 /// The combination of methods whose whole kernel has the least weight, set-up that bands share counted once.
 Plan cheapest_plan(int order, const Workload& workload);

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "graph/evaluate.hpp"
 #include "graph/passes.hpp"
 #include "kernels/planner.hpp"
@@ -61,7 +63,7 @@ TEST(Planner, nothing_weighs_less_than_the_plan_but_for_one_band_changed) {
         const int least = weight(build_plan(6, plan), workload);
         for (int l = 1; l < 6; ++l) {
             for (const Alternative& way : alternatives(6, l)) {
-                if (!is_fit_for(way.plan, workload)) continue;
+                if (!is_fit_for(way.plan, 6, workload)) continue;
                 Plan changed = plan;
                 changed[l - 1] = way.plan;
                 EXPECT_GE(weight(build_plan(6, changed), workload), least) << name_of(way.plan);
@@ -72,6 +74,15 @@ TEST(Planner, nothing_weighs_less_than_the_plan_but_for_one_band_changed) {
 
 TEST(Planner, a_workload_with_mirrors_gets_a_kernel_for_mirrors) {
     EXPECT_FALSE(build_plan(5, cheapest_plan(5, {1, true})).needs_proper_rotation);
+}
+
+TEST(Planner, orders_11_to_14_multiply_no_more_than_their_goals) {
+    const std::map<int, int> goals{{11, 1600}, {12, 2010}, {13, 2480}, {14, 3010}};
+    for (const auto& [order, goal] : goals) {
+        const graph::Cost cost = graph::count_operations(build_plan(order, cheapest_plan(order, {1, false})));
+        const auto multiplications = [](const graph::Counts& counts) { return counts.mul + counts.fma; };
+        EXPECT_LE(multiplications(cost.per_rotation) + multiplications(cost.per_vector), goal) << order;
+    }
 }
 
 TEST(Rotations, contractions_alone_are_a_kernel_where_rotate_divides_and_every_band_has_one) {

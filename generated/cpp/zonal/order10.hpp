@@ -10,8 +10,8 @@
 //           generator/tables/mirrored/band08.json  sha256:57a99ea78aeb70ae
 //           generator/tables/mirrored/band09.json  sha256:69976decd891ba4c
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : rotate_channels 396 mul 11 add 761 fma 3 other;
-//             per extra vector 271 mul 0 add 710 fma 0 other
+// cost    : rotate_channels 389 mul 11 add 765 fma 3 other;
+//             per extra vector 271 mul 0 add 714 fma 0 other
 //           rotate 341 mul 12 add 782 fma 3 other;
 //             per extra vector 296 mul 1 add 733 fma 0 other
 //           prepare 224 mul 9 add 49 fma 3 other;
@@ -50,7 +50,7 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 1773 mul 301 add 3558 fma 0 other;
 //             per extra vector 879 mul 0 add 2642 fma 0 other
-// bound   : rotate_channels relative error 1.4e-06 (float), 2.8e-15 (double),
+// bound   : rotate_channels relative error 1.2e-06 (float), 2.8e-15 (double),
 //             for det R = +1; excess 4.50
 //           rotate relative error 1.5e-06 (float), 2.9e-15 (double),
 //             for det R = +1; excess 4.50
@@ -218,7 +218,7 @@ inline constexpr int kTakesMirrors = 0;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 1.4e-06;
+inline constexpr double kRotateChannelsBoundFloat = 1.2e-06;
 inline constexpr double kRotateChannelsBoundDouble = 2.8e-15;
 inline constexpr double kRotateChannelsExcess = 4.50;
 
@@ -377,13 +377,13 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b3_e_6 = fma(b2_e_scalar_3, b3_e_3, b3_g_8);
     const V b3_o_1 = fma(T(0.25819888974716115), b3_g_2, b3_g_10);
     const V b3_o_2 = fma(T(-0.24206145913796356), b3_o_1, b3_g_2);
-    const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
-    const V b3_o_4 = fma(T(0.48412291827592713), b3_o_3, f[12]);
-    const T b3_o_scalar_1 = T(0.81649658092772603) * euler_11;
-    const V b3_o_5 = b_c1 * b3_o_1;
-    const V b3_o_6 = fma(b3_o_scalar_1, b3_o_3, -b3_o_5);
-    const V b3_o_7 = b2_e_scalar_1 * b3_o_1;
-    const V b3_o_8 = fma(b_c1, b3_o_3, b3_o_7);
+    const V b3_o_3 = fma(T(-0.39555363668733001), f[12], b3_g_6);
+    const V b3_o_4 = fma(T(0.59292706128157113), b3_o_3, f[12]);
+    const V b3_o_5 = fma(T(-0.309487340104943), b3_o_4, b3_o_3);
+    const V b3_o_6 = b_c1 * b3_o_1;
+    const V b3_o_7 = fma(euler_11, b3_o_5, -b3_o_6);
+    const V b3_o_8 = euler_11 * b3_o_1;
+    const V b3_o_9 = fma(b_c1, b3_o_5, b3_o_8);
     const T b_2c1 = b_c1 + b_c1;
     const T b_s2 = euler_11 * b_2c1;
     const T b_c2 = fma(b_c1, b_2c1, T(-1.0));
@@ -391,29 +391,28 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const T b_2 = fma(euler_11, b_s2, -b_1);
     const T b_3 = euler_11 * b_c2;
     const T b_s3 = fma(b_c1, b_s2, b_3);
-    const T b3_o_scalar_2 = T(0.81649658092772603) * b_s3;
-    const T b3_o_scalar_3 = T(1.2247448713915889) * b_s3;
-    const V b3_o_9 = b_2 * b3_o_2;
-    const V b3_o_10 = fma(b3_o_scalar_3, b3_o_4, -b3_o_9);
-    const V b3_o_11 = b3_o_scalar_2 * b3_o_2;
-    const V b3_o_12 = fma(b_2, b3_o_4, b3_o_11);
-    const V b3_o_13 = fma(T(-0.24206145913796356), b3_o_6, b3_o_10);
-    const V b3_o_14 = fma(T(0.25819888974716115), b3_o_13, b3_o_6);
-    const V b3_o_15 = fma(T(0.48412291827592713), b3_o_8, b3_o_12);
-    const V b3_o_16 = -b3_o_15;
-    const V b3_o_17 = fma(T(-0.7745966692414834), b3_o_15, b3_o_8);
-    const V b3_a_1 = a_c1 * b3_o_13;
+    const V b3_o_10 = b_2 * b3_o_2;
+    const V b3_o_11 = fma(b_s3, b3_o_4, -b3_o_10);
+    const V b3_o_12 = b_s3 * b3_o_2;
+    const V b3_o_13 = fma(b_2, b3_o_4, b3_o_12);
+    const V b3_o_14 = fma(T(-0.24206145913796356), b3_o_7, b3_o_11);
+    const V b3_o_15 = fma(T(0.25819888974716115), b3_o_14, b3_o_7);
+    const V b3_o_16 = fma(T(-0.309487340104943), b3_o_13, b3_o_9);
+    const V b3_o_17 = fma(T(0.59292706128157113), b3_o_16, b3_o_13);
+    const V b3_o_18 = -b3_o_17;
+    const V b3_o_19 = fma(T(-0.39555363668733001), b3_o_17, b3_o_16);
+    const V b3_a_1 = a_c1 * b3_o_14;
     const V b3_a_2 = fma(a_s1, b3_e_4, b3_a_1);
-    const V b3_a_3 = a_s1 * b3_o_13;
-    const V b3_a_4 = a_c2 * b3_o_17;
+    const V b3_a_3 = a_s1 * b3_o_14;
+    const V b3_a_4 = a_c2 * b3_o_19;
     const V b3_a_5 = fma(a_s2, b3_e_6, -b3_a_4);
-    const V b3_a_6 = a_s2 * b3_o_17;
+    const V b3_a_6 = a_s2 * b3_o_19;
     const T a_1 = a_c1 * a_c2;
     const T a_2 = fma(a_s1, a_s2, -a_1);
     const T a_3 = a_s1 * a_c2;
     const T a_s3 = fma(a_c1, a_s2, a_3);
-    const V b3_a_7 = a_2 * b3_o_14;
-    const V b3_a_8 = a_s3 * b3_o_14;
+    const V b3_a_7 = a_2 * b3_o_15;
+    const V b3_a_8 = a_s3 * b3_o_15;
     const V b3_a_9 = fma(-a_2, b3_e_5, -b3_a_8);
     const V b3_a_10 = fma(-a_c2, b3_e_6, -b3_a_6);
     const V b3_a_11 = fma(-a_c1, b3_e_4, b3_a_3);
@@ -421,7 +420,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     out[9] = b3_a_9;
     out[10] = b3_a_10;
     out[11] = b3_a_11;
-    out[12] = b3_o_16;
+    out[12] = b3_o_18;
     out[13] = b3_a_2;
     out[14] = b3_a_5;
     out[15] = b3_a_12;
@@ -476,44 +475,42 @@ void rotate_channels(const T* R, const V* f, V* out) {
     const V b4_e_20 = fma(b4_e_scalar_9, b4_e_15, b4_e_10);
     const V b4_o_1 = fma(T(-0.37796447300922725), b4_g_8, b4_g_16);
     const V b4_o_2 = fma(T(0.33071891388307384), b4_o_1, b4_g_8);
-    const V b4_o_3 = fma(T(-0.88191710368819687), b4_g_12, b4_g_4);
-    const V b4_o_4 = fma(T(0.49607837082461076), b4_o_3, b4_g_12);
-    const T b4_o_scalar_1 = T(1.247219128924647) * euler_11;
-    const T b4_o_scalar_2 = T(0.80178372573727319) * euler_11;
-    const V b4_o_5 = b_c1 * b4_o_1;
-    const V b4_o_6 = fma(b4_o_scalar_2, b4_o_3, b4_o_5);
-    const V b4_o_7 = b4_o_scalar_1 * b4_o_1;
-    const V b4_o_8 = fma(b_c1, b4_o_3, -b4_o_7);
-    const T b4_o_scalar_3 = T(0.80178372573727319) * b_s3;
-    const T b4_o_scalar_4 = T(1.247219128924647) * b_s3;
-    const V b4_o_9 = b_2 * b4_o_2;
-    const V b4_o_10 = fma(b4_o_scalar_4, b4_o_4, b4_o_9);
-    const V b4_o_11 = b4_o_scalar_3 * b4_o_2;
-    const V b4_o_12 = fma(b_2, b4_o_4, -b4_o_11);
-    const V b4_o_13 = fma(T(0.33071891388307384), b4_o_6, b4_o_10);
-    const V b4_o_14 = fma(T(-0.37796447300922725), b4_o_13, b4_o_6);
-    const V b4_o_15 = fma(T(0.49607837082461076), b4_o_8, b4_o_12);
-    const V b4_o_16 = fma(T(-0.88191710368819687), b4_o_15, b4_o_8);
+    const V b4_o_3 = fma(T(-0.48235065225585549), b4_g_12, b4_g_4);
+    const V b4_o_4 = fma(T(0.61871843353822908), b4_o_3, b4_g_12);
+    const V b4_o_5 = fma(T(-0.32036587810904382), b4_o_4, b4_o_3);
+    const V b4_o_6 = b_c1 * b4_o_1;
+    const V b4_o_7 = fma(euler_11, b4_o_5, b4_o_6);
+    const V b4_o_8 = euler_11 * b4_o_1;
+    const V b4_o_9 = fma(b_c1, b4_o_5, -b4_o_8);
+    const V b4_o_10 = b_2 * b4_o_2;
+    const V b4_o_11 = fma(b_s3, b4_o_4, b4_o_10);
+    const V b4_o_12 = b_s3 * b4_o_2;
+    const V b4_o_13 = fma(b_2, b4_o_4, -b4_o_12);
+    const V b4_o_14 = fma(T(0.33071891388307384), b4_o_7, b4_o_11);
+    const V b4_o_15 = fma(T(-0.37796447300922725), b4_o_14, b4_o_7);
+    const V b4_o_16 = fma(T(-0.32036587810904382), b4_o_13, b4_o_9);
+    const V b4_o_17 = fma(T(0.61871843353822908), b4_o_16, b4_o_13);
+    const V b4_o_18 = fma(T(-0.48235065225585549), b4_o_17, b4_o_16);
     const V b4_a_1 = a_c1 * b4_e_19;
-    const V b4_a_2 = fma(a_s1, b4_o_16, -b4_a_1);
+    const V b4_a_2 = fma(a_s1, b4_o_18, -b4_a_1);
     const V b4_a_3 = a_s1 * b4_e_19;
     const V b4_a_4 = a_c2 * b4_e_17;
-    const V b4_a_5 = fma(a_s2, b4_o_13, -b4_a_4);
+    const V b4_a_5 = fma(a_s2, b4_o_14, -b4_a_4);
     const V b4_a_6 = a_s2 * b4_e_17;
     const V b4_a_7 = a_2 * b4_e_20;
-    const V b4_a_8 = fma(a_s3, b4_o_15, b4_a_7);
+    const V b4_a_8 = fma(a_s3, b4_o_17, b4_a_7);
     const V b4_a_9 = a_s3 * b4_e_20;
-    const V b4_a_10 = fma(a_2, b4_o_15, -b4_a_9);
+    const V b4_a_10 = fma(a_2, b4_o_17, -b4_a_9);
     const T a_4 = a_c2 * a_c2;
     const T a_5 = fma(a_s2, a_s2, -a_4);
     const T a_2c2 = fma(a_2c1, a_2c1_over_n, T(-2.0));
     const T a_s4 = a_s2 * a_2c2;
     const V b4_a_11 = a_5 * b4_e_18;
-    const V b4_a_12 = fma(a_s4, b4_o_14, b4_a_11);
+    const V b4_a_12 = fma(a_s4, b4_o_15, b4_a_11);
     const V b4_a_13 = a_s4 * b4_e_18;
-    const V b4_a_14 = fma(a_5, b4_o_14, -b4_a_13);
-    const V b4_a_15 = fma(-a_c2, b4_o_13, -b4_a_6);
-    const V b4_a_16 = fma(-a_c1, b4_o_16, -b4_a_3);
+    const V b4_a_14 = fma(a_5, b4_o_15, -b4_a_13);
+    const V b4_a_15 = fma(-a_c2, b4_o_14, -b4_a_6);
+    const V b4_a_16 = fma(-a_c1, b4_o_18, -b4_a_3);
     out[16] = b4_a_14;
     out[17] = b4_a_10;
     out[18] = b4_a_15;
