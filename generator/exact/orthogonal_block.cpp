@@ -10,7 +10,7 @@ namespace zonal::exact {
 
 namespace {
 
-/// The search among shears takes longer than n!² 2^n.
+/// The search among shears tries n!² 2^n of them.
 constexpr int kLargestForShears = 4;
 
 bool is_zero(const Real& value) { return abs(value) < kZeroThreshold; }

@@ -61,12 +61,11 @@ struct ScaledBlocks {
     std::vector<BlockSteps> blocks;
 };
 
-/// Factorizes orthogonal n x n matrices X_1, X_2, … whose columns may have other lengths, shared by all: X_k
-/// S, S diagonal and positive. In X_1 T_1 X_1ᵀ, X_2 T_2 X_2ᵀ, … with T_k that commute with S nothing changes.
-/// Up to n = 4, n shears of n - 1 terms make X S for one S: n - 1 factors fewer than without; for n = 2, a
-/// turn by θ, they are tan θ and sin θ cos θ with S = (1/cos θ, cos θ). The cheapest of that for one X_k, the
-/// others with n
-/// + 1 shears, and of S = 1.
+/// Factorizes orthogonal n x n matrices X_1, X_2, … whose columns may have other lengths, shared by all:
+/// X_k S, S diagonal and positive. In X_k T_k X_kᵀ, where T_k commutes with S, nothing changes. Up to n = 4
+/// there is an S with which n shears of n - 1 terms make X S, n - 1 factors fewer than without; for a turn by
+/// θ they are tan θ and sin θ cos θ, S = (1/cos θ, cos θ). The cheapest of that for one X_k, while the others
+/// take n + 1 shears, and of S = 1.
 ScaledBlocks factorize_up_to_scales(const std::vector<Matrix<Real>>& matrices);
 
 /// The matrix that the steps make.

@@ -43,7 +43,7 @@ Value AnglePowers::twice_sine(int m) {
 
 // With c, s = √n (cos θ, sin θ): (2c/n) √n cos (m-1)θ - cos (m-2)θ = cos mθ and 2c cos (m-1)θ - √n cos (m-2)θ
 // = √n cos mθ, for sines alike. So steps by 2c/n and by 2c in turn keep even powers at norm 1 and odd ones at
-// √n. 1/n is 2 - n.
+// √n. To first order 1/n is 1 + the defect.
 Value AnglePowers::step_to(int m) {
     const Value d = twice_cosine(1);
     if (norm_defect_.graph == nullptr || m % 2 == 1) return d;

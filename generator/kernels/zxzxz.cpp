@@ -179,7 +179,7 @@ Values apply(Graph& graph, const BlockSteps& block, Values x) {
     return y;
 }
 
-/// x = M^-1 y.
+/// The steps undone: x = M^-1 y, for a product Mᵀ y.
 Values apply_inverse(Graph& graph, const BlockSteps& block, const Values& y) {
     Values x(block.size);
     for (int i = 0; i < block.size; ++i) x[block.sources[i]] = Number(block.signs[i]) * y[i];
