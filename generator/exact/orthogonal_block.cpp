@@ -46,28 +46,6 @@ BlockSteps identity_of(int n) {
     return block;
 }
 
-Vector<Real> unit_term(int size, int index, const Real& factor) {
-    Vector<Real> factors = Vector<Real>::Zero(size);
-    factors(index) = factor;
-    return factors;
-}
-
-BlockSteps by_lifting(const Matrix<Real>& matrix) {
-    BlockSteps block = identity_of(2);
-    Real best_cosine = -1;
-    for_each_signed_permutation(2, [&](const auto& sources, const auto& signs) {
-        const Matrix<Real> rotation = before_signed_permutation(matrix, sources, signs);
-        if (rotation.determinant() < 0 || rotation(0, 0) <= best_cosine) return;
-        best_cosine = rotation(0, 0);
-        const Real sine = rotation(1, 0), tangent = sine / (1 + best_cosine);
-        block.sources = sources;
-        block.signs = signs;
-        block.steps = {Shear{0, unit_term(2, 1, -tangent)}, Shear{1, unit_term(2, 0, sine)},
-                       Shear{0, unit_term(2, 1, -tangent)}};
-    });
-    return block;
-}
-
 template <class Visit>
 void for_each_subset(int n, int size, Visit visit) {
     std::vector<bool> is_in(n, false);
@@ -313,7 +291,6 @@ BlockSteps factorize_orthogonal(const Matrix<Real>& matrix) {
         block.signs = {matrix(0, 0) < 0 ? -1 : 1};
         return block;
     }
-    if (n == 2) return by_lifting(matrix);
     if (is_zero((matrix - matrix.transpose()).norm())) return by_reflection(matrix);
     if (n <= kLargestForShears)
         if (const auto block = by_shears(matrix)) return *block;

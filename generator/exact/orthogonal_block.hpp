@@ -42,12 +42,10 @@ int instructions(const BlockSteps& block);
 
 /// The cheapest known factorization of an orthogonal n x n matrix:
 ///   1 x 1               nothing
-///   2 x 2               lifting, 3 shears of one term: Daubechies and Sweldens 1998, section 8
 ///   symmetric           a reflection of the smaller of its two eigenspaces, of dimension r: 2nr - r^2
-///   3 x 3 … 4 x 4       n+1 shears of n-1 terms, searched over orders, signs and permutations for the
-///   smallest
-///                       largest factor: n^2 - 1; Hao and Shi 2001, "Matrix factorizations for reversible
-///                       integer mapping"
+///   2 x 2 … 4 x 4       n+1 shears of n-1 terms, searched over orders, signs and permutations for the
+///                       smallest largest factor: n^2 - 1; Hao and Shi 2001, "Matrix factorizations for
+///                       reversible integer mapping"; for n = 2 lifting: Daubechies and Sweldens 1998
 ///   larger              the product, n^2
 /// No factor of a shear is larger than 1.
 BlockSteps factorize_orthogonal(const Matrix<Real>& matrix);
