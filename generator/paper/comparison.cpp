@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "graph/counts.hpp"
@@ -69,7 +70,7 @@ Json lobes_of_functions(const std::filesystem::path& tables) {
     Json rows = Json::array();
     int l = 2;
     for (const std::vector<int>& paper : published::kLobesOfFunctions) {
-        Json row{{"band", l}, {"paper", paper}, {"ours", nullptr}};
+        Json row{{"band", l}, {"paper", paper}, {"ours", nullptr}, {"ratio", nullptr}};
         if (const auto table = find_table(tables, LobeUse::band(l))) {
             const exact::BandFactorization band = exact::factorize_band(l, table->directions);
             row["ours"] = Json::array();
@@ -78,6 +79,7 @@ Json lobes_of_functions(const std::filesystem::path& tables) {
                 row["ours"].push_back(std::count_if(lobes.begin(), lobes.end(),
                                                     [](const exact::Real& weight) { return weight != 0; }));
             }
+            row["ratio"] = ratio(table->nonzeros, std::accumulate(paper.begin(), paper.end(), 0));
         }
         rows.push_back(row);
         ++l;
@@ -90,11 +92,12 @@ Json zeros_of_bands(const std::filesystem::path& tables) {
     int l = 2;
     for (const int percent : published::kZerosOfBands) {
         const int entries = (2 * l + 1) * (2 * l + 1);
-        Json row{{"band", l},        {"entries", entries}, {"paper_percent", percent},
-                 {"zeros", nullptr}, {"percent", nullptr}, {"cond", nullptr}};
+        Json row{{"band", l},          {"entries", entries}, {"paper_percent", percent}, {"zeros", nullptr},
+                 {"percent", nullptr}, {"cond", nullptr},    {"ratio", nullptr}};
         if (const auto table = find_table(tables, LobeUse::band(l))) {
             row["zeros"] = table->zeros.front();
             row["percent"] = 100.0 * table->zeros.front() / entries;
+            row["ratio"] = ratio(row["percent"], percent);
             row["cond"] = table->condition.front();
         }
         rows.push_back(row);
@@ -118,11 +121,8 @@ Json multiplications(const std::filesystem::path& tables, int order) {
 Json sparsity(const std::filesystem::path& tables, int order, int sets, std::uint64_t seed) {
     const RandomSparsity random = random_sparsity(order, sets, seed);
     const Distribution& d = random.distribution;
-    Json row{{"order", order},
-             {"random", nullptr},
-             {"drawn", random.drawn},
-             {"searched_percent", nullptr},
-             {"paper", nullptr}};
+    Json row{{"order", order},   {"random", nullptr}, {"drawn", random.drawn}, {"searched_percent", nullptr},
+             {"paper", nullptr}, {"ratio", nullptr}};
     if (d.sets > 0)
         row["random"] = {{"sets", d.sets},      {"mean", d.mean},
                          {"least", d.least},    {"lower_quartile", d.lower_quartile},
@@ -130,10 +130,12 @@ Json sparsity(const std::filesystem::path& tables, int order, int sets, std::uin
                          {"largest", d.largest}};
     if (const auto table = find_table(tables, LobeUse::order(order)))
         row["searched_percent"] = 100.0 - 100.0 * table->nonzeros / entries_of_order(order);
-    if (order == published::kSparsity.order)
+    if (order == published::kSparsity.order) {
         row["paper"] = {{"mean", published::kSparsity.random_mean},
                         {"largest", published::kSparsity.random_largest},
                         {"searched", published::kSparsity.searched}};
+        row["ratio"] = ratio(row["searched_percent"], published::kSparsity.searched);
+    }
     return row;
 }
 

@@ -26,19 +26,23 @@ std::string list(const Json& values) {
 }
 
 Sheet lobes_sheet(const Json& rows) {
-    Sheet sheet{"Table I: lobes of each function", "y_l^m for m = -l … l", {{"l", "paper", "zonal"}}};
+    Sheet sheet{"Table I: lobes of each function",
+                "y_l^m for m = -l … l; the ratio is that of the sums",
+                {{"l", "paper", "zonal", "ratio"}}};
     for (const Json& row : rows)
-        sheet.rows.push_back({count(row["band"]), list(row["paper"]), list(row["ours"])});
+        sheet.rows.push_back(
+            {count(row["band"]), list(row["paper"]), list(row["ours"]), number(row["ratio"], "{:.3f}")});
     return sheet;
 }
 
 Sheet zeros_sheet(const Json& rows) {
     Sheet sheet{"Table I: zeros of each band",
-                "of (2l+1)^2 entries; cond is cond_2(Y_l)",
-                {{"l", "entries", "paper %", "zonal %", "zeros", "cond"}}};
+                "of (2l+1)^2 entries, more is better; cond is cond_2(Y_l)",
+                {{"l", "entries", "paper %", "zonal %", "ratio", "zeros", "cond"}}};
     for (const Json& row : rows)
         sheet.rows.push_back({count(row["band"]), count(row["entries"]), count(row["paper_percent"]),
-                              percent(row["percent"]), count(row["zeros"]), number(row["cond"], "{:.3g}")});
+                              percent(row["percent"]), number(row["ratio"], "{:.3f}"), count(row["zeros"]),
+                              number(row["cond"], "{:.3g}")});
     return sheet;
 }
 
@@ -80,7 +84,7 @@ Sheet sparsity_sheet(const Json& rows) {
     Sheet sheet{"Figure 3: zeros in percent of all bands >= 2",
                 "of random nonsingular sets of candidates, and of the searched table",
                 {{"N", "sets", "drawn", "least", "quartile", "median", "mean", "quartile", "largest",
-                  "searched", "paper: mean, largest, searched"}}};
+                  "searched", "paper: mean, largest, searched", "ratio of searched"}}};
     for (const Json& row : rows) {
         const Json& random = row["random"];
         std::vector<std::string> cells{count(row["order"]), random.is_null() ? "0" : count(random["sets"]),
@@ -92,6 +96,7 @@ Sheet sparsity_sheet(const Json& rows) {
         cells.push_back(paper.is_null() ? ""
                                         : fmt::format("{} {} {}", count(paper["mean"]),
                                                       count(paper["largest"]), count(paper["searched"])));
+        cells.push_back(paper.is_null() ? "" : number(row["ratio"], "{:.3f}"));
         sheet.rows.push_back(cells);
     }
     return sheet;

@@ -121,7 +121,9 @@ TEST(Comparison, lists_the_lobes_of_each_function_of_a_band) {
     EXPECT_EQ(row["ours"][2], 1);  // y_2^0 is the lobe at the pole
     const auto lobes = row["ours"].get<std::vector<int>>();
     EXPECT_EQ(std::accumulate(lobes.begin(), lobes.end(), 0), table.nonzeros);
+    EXPECT_DOUBLE_EQ(row["ratio"], table.nonzeros / 9.0);  // the paper's are 2 + 2 + 1 + 2 + 2
     EXPECT_EQ(zeros_of_bands(folder)[0]["zeros"], 25 - table.nonzeros);
+    EXPECT_DOUBLE_EQ(zeros_of_bands(folder)[0]["ratio"], (25 - table.nonzeros) / 16.0);
 }
 
 TEST(Sheets, have_a_row_of_equal_length_for_every_number_and_say_what_is_missing) {

@@ -24,9 +24,10 @@ class SearchCommand : public testing::Test {
         fs::create_directories(folder_);
     }
 
-    int search(const std::string& options, const std::string& out) {
-        const std::string command =
-            "'" ZONAL_GEN "' search " + options + " --out '" + path(out) + "' >'" + path("output") + "' 2>&1";
+    /// `before` is put in front of the command.
+    int search(const std::string& options, const std::string& out, const std::string& before = "") {
+        const std::string command = before + " '" ZONAL_GEN "' search " + options + " --out '" + path(out) +
+                                    "' >'" + path("output") + "' 2>&1";
         return std::system(command.c_str());
     }
 
@@ -63,6 +64,14 @@ TEST_F(SearchCommand, what_it_cannot_make_better_stays_as_it_was) {
               0);
     std::ifstream stream(table, std::ios::binary);
     EXPECT_EQ(bytes("b.json"), (std::string{std::istreambuf_iterator<char>(stream), {}}));
+}
+
+TEST_F(SearchCommand, ctrl_c_ends_it_with_the_best_kept) {
+    ASSERT_EQ(search("--band 4 --generations 1000000000 --stall 1000000000 --on-grid --local-moves 20",
+                     "b.json", "timeout --preserve-status --signal INT 5"),
+              0);
+    EXPECT_GT(read_lobe_table(path("b.json"), LobeUse::band(4)).nonzeros, 0);
+    EXPECT_THAT(bytes("output"), HasSubstr(path("b.json")));
 }
 
 TEST_F(SearchCommand, a_walk_without_a_start_is_refused) {
