@@ -31,7 +31,7 @@ using graph::Op;
 ///     microseconds a call, unrolled, tables  1.6 2.2  3.3 4.1  6.5 7.1  17 17  36 34
 /// Below 30000 operations only the time to compile speaks for tables, so the limit lies as high as it may for
 /// the kernels of order 10 to take well under 10 s together: above its `rotate_accurate`.
-/// Kernels without dense blocks stay below it at every order (order 20: 4 s, and 2.1 us instead of 5.1).
+/// `rotate` and its like stay below it at every order (order 20: 4 s, and 2.1 us instead of 5.1).
 constexpr int kLargestUnrolled = 9000;
 
 const char* const kPrelude = R"(
