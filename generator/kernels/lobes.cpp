@@ -111,8 +111,8 @@ Vector3 rotate_direction(Kernel& kernel, const Matrix3& rows, const exact::Direc
 
 /// From this order on turned lobes are brought back to length 1. Of what rounding does to a direction its
 /// length costs nearly all: harmonics are polynomials that are harmonic on the sphere only, and weights of
-/// opposite signs amplify what they lose. The error of `rotate_zhf` in float so falls to two fifths at order
-/// 6 and to half at order 8, for 8 and 5 % more instructions; below, it is small anyway.
+/// opposite signs amplify what they lose. The error of `rotate_zhf` in float so falls to half at orders 6
+/// and 8, for 8 and 5 % more instructions; below, it is small anyway.
 constexpr int kSmallestOrderOfUnitLobes = 6;
 
 /// One Newton step: v + v (1 - v.v) / 2.

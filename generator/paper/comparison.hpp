@@ -13,10 +13,11 @@ using Json = nlohmann::ordered_json;
 /// Every function below gives an array of objects, with null where the folder lacks a table; a table that is
 /// there but not as it should be throws `UserError`.
 
-/// Table I, upper part, l = 2 … 6: {band, paper, ours}, both with the lobes of y_l^{-l} … y_l^l.
+/// Table I, upper part, l = 2 … 6: {band, paper, ours, ratio}, both with the lobes of y_l^{-l} … y_l^l; the
+/// ratio is that of their sums.
 Json lobes_of_functions(const std::filesystem::path& tables);
 
-/// Table I, lower part, l = 2 … 18: {band, entries, paper_percent, zeros, percent, cond}.
+/// Table I, lower part, l = 2 … 18: {band, entries, paper_percent, zeros, percent, cond, ratio}.
 Json zeros_of_bands(const std::filesystem::path& tables);
 
 /// Table II for one order: {order, paper, ours, ratio}. `ours` counts the kernels as they are emitted,
@@ -24,7 +25,8 @@ Json zeros_of_bands(const std::filesystem::path& tables);
 /// paper's rows, zxzxz with optimized z-rotations included.
 Json multiplications(const std::filesystem::path& tables, int order);
 
-/// Figure 3 for one order: {order, random, searched_percent, paper}.
+/// Figure 3 for one order: {order, random, drawn, searched_percent, paper, ratio}; the ratio is of the
+/// searched ones, null at orders that the paper has no value for.
 Json sparsity(const std::filesystem::path& tables, int order, int sets, std::uint64_t seed);
 
 /// Eq. 8 for one band: {band, paper_seconds, seconds, ratio, residual, rounding, evaluations, starts}.

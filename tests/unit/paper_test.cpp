@@ -103,6 +103,13 @@ TEST(Comparison, counts_of_a_table_are_those_of_its_nonzeros) {
     EXPECT_EQ(row["ours"]["sparse"], 9);
     EXPECT_EQ(row["ratio"]["sparse"], 1.0);
     EXPECT_EQ(sparsity(folder, 3, 10, 1)["searched_percent"], 64.0);
+    EXPECT_TRUE(sparsity(folder, 3, 10, 1)["ratio"].is_null());
+}
+
+TEST(Comparison, the_searched_sparsity_is_set_against_the_papers_where_it_has_one) {
+    const Json row = sparsity(folder_with({"order08.json"}), 8, 10, 1);
+    EXPECT_EQ(row["paper"]["searched"], 45);
+    EXPECT_DOUBLE_EQ(row["ratio"], row["searched_percent"].get<double>() / 45);
 }
 
 TEST(Comparison, lists_the_lobes_of_each_function_of_a_band) {
