@@ -5,7 +5,7 @@
 # TARGET names that set, by default the best this processor has (none but the baseline outside x86);
 # ZONAL_GEN names another zonal-gen.
 set -euo pipefail
-gen=$(realpath "${ZONAL_GEN:-$(dirname "${BASH_SOURCE[0]}")/../../build/release/bin/zonal-gen}")
+gen=$(realpath -m "${ZONAL_GEN:-$(dirname "${BASH_SOURCE[0]}")/../../build/release/bin/zonal-gen}")
 [ -x "$gen" ] || { echo "$gen: not found; build it, or name another by ZONAL_GEN" >&2; exit 1; }
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 orders=${1:?the orders, in quotes}
