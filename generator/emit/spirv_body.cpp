@@ -52,7 +52,7 @@ class BodyPrinter {
 
   private:
     /// c (a b): a compiler that takes it for (c a) b keeps c a in a register for whatever else c a meets.
-    /// (Mesa's does, and holds 50 more registers for rotate_accurate of order 6.) Nothing is lost where a b
+    /// (Mesa's does, and held 50 more registers for dense blocks of order 6.) Nothing is lost where a b
     /// must stay: a factor is never contracted.
     void note_scaled_products() {
         const auto is_constant = [&](Id id) { return kernel_.graph[id].op == Op::constant; };

@@ -115,8 +115,8 @@ std::vector<Value> transposed(const std::vector<Value>& block, int size) {
 }  // namespace
 
 // The inverse has the transposed matrix. Entries of outer columns whose row is nearer to 0 are taken from
-// there; others are not: with noise in R, entries by rows and by columns in turn lose more than (N-1)/2 |R
-// R^T - I|_F.
+// there; others are not: with noise in R, entries by rows and by columns in turn lose more than
+// (N-1)/2 |R R^T - I|_F.
 std::vector<std::vector<Value>> dense_blocks(graph::Kernel& kernel, const Matrix3& rows, int order) {
     graph::Graph& graph = kernel.graph;
     const Matrix3 columns = transposed(rows);
