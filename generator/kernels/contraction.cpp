@@ -4,8 +4,10 @@
 // Band 1 is a vector. Band 2: S' = R S Rᵀ needs two products S r_z, S r_x and five dot products, for its
 // trace is known; adding a multiple of I to S changes S' by the same, which frees one entry of S. Band 3: two
 // contractions with r_z, r_x leave matrices, three with rows leave vectors, seven dot products are all of T'.
-// Nothing is divided, so there is no pole; every step is linear in each row, so a mirror is as good as a
-// rotation.
+// Both hold as far as R Rᵀ = I. Read directly, each harmonic of order |m| = 2, 3 is the difference it is by
+// definition, with nothing inferred but one entry of T': what noise in R then costs is tested
+// (graph_noise_test). Nothing is divided, so there is no pole; every step is linear in each row, so a mirror
+// is as good as a rotation.
 #include "kernels/contraction.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +34,21 @@ Value dot_onto(Value addend, const Vector3& row, const Vector3& v) {
     for (int i = 0; i < 3; ++i) sum = sum + row[i] * v[i];
     return sum;
 }
+
+/// row · vector - other row · other vector.
+Value difference(const Vector3& row, const Vector3& v, const Vector3& other_row, const Vector3& u) {
+    Value sum = dot(row, v);
+    for (int i = 0; i < 3; ++i) sum = sum - other_row[i] * u[i];
+    return sum;
+}
+
+/// A symmetric matrix.
+struct Symmetric {
+    Value xx, xy, xz, yy, yz, zz;
+    Vector3 times(const Vector3& r) const {
+        return {dot(r, {xx, xy, xz}), dot(r, {xy, yy, yz}), dot(r, {xz, yz, zz})};
+    }
+};
 
 void build_band_1(graph::Kernel& kernel, const Matrix3& rows) {
     // Coefficients 1, 2, 3 belong to y, z, x.
@@ -72,9 +89,24 @@ void build_band_2(graph::Kernel& kernel, const Matrix3& rows) {
     kernel.store(8, dot_onto(half_t, x, v), 2);
 }
 
+/// S in the same units, no entry shifted.
+void build_band_2_directly(graph::Kernel& kernel, const Matrix3& rows) {
+    const auto& [x, y, z] = rows;
+    const Value f4 = kernel.input(1, 4), f5 = kernel.input(1, 5), f6 = kernel.input(1, 6),
+                f7 = kernel.input(1, 7), f8 = kernel.input(1, 8);
+    const Number root_3 = sqrt(Number(3));
+    const Symmetric s{f8 - (1 / root_3) * f6, f4, f7, -f8 - (1 / root_3) * f6, f5, (2 / root_3) * f6};
+    const Vector3 w = s.times(z), v = s.times(x), u = s.times(y);
+    kernel.store(4, dot(y, v), 2);
+    kernel.store(5, dot(y, w), 2);
+    kernel.store(6, (root_3 / 2) * dot(z, w), 2);
+    kernel.store(7, dot(x, w), 2);
+    kernel.store(8, Number(0.5) * difference(x, v, y, u), 2);
+}
+
 /// The tensor in units where the coefficient of y_3^{±3}'s leading monomial is 1: y_3^3 = x³ - 3xy²,
 /// y_3^2 = √6 (x² - y²) z, y_3^1 = √(3/5) x (4z² - x² - y²), y_3^0 = √(2/5) z (2z² - 3x² - 3y²).
-void build_band_3(graph::Kernel& kernel, const Matrix3& rows) {
+void build_band_3(graph::Kernel& kernel, const Matrix3& rows, Reading reading) {
     const auto& [x, y, z] = rows;
     const auto f = [&](int m) { return kernel.input(1, 12 + m); };
     const Number n0 = sqrt(Number(2) / 5), n1 = sqrt(Number(3) / 5), n2 = sqrt(Number(6));
@@ -95,13 +127,7 @@ void build_band_3(graph::Kernel& kernel, const Matrix3& rows) {
     const Value xxy = f(-3) + xxy_trace;
     const Value yyy = -(xxy + zzy);
 
-    // Symmetric matrices T(row): xx, xy, xz, yy, yz; zz by the trace.
-    struct Symmetric {
-        Value xx, xy, xz, yy, yz, zz;
-        Vector3 times(const Vector3& r) const {
-            return {dot(r, {xx, xy, xz}), dot(r, {xy, yy, yz}), dot(r, {xz, yz, zz})};
-        }
-    };
+    // T(row), whose zz is known by the trace.
     const auto contracted = [&](const Vector3& r) {
         Symmetric s;
         s.xx = dot(r, {xxx, xxy, zxx});
@@ -123,8 +149,15 @@ void build_band_3(graph::Kernel& kernel, const Matrix3& rows) {
     kernel.store(11, (3 / (4 * n1)) * zzy_turned, 3);
     kernel.store(12, (1 / (2 * n0)) * zzz_turned, 3);
     kernel.store(13, (3 / (4 * n1)) * zzx_turned, 3);
-    kernel.store(14, (3 / n2) * (zxx_turned + Number(0.5) * zzz_turned), 3);
-    kernel.store(15, xxx_turned + Number(0.75) * zzx_turned, 3);
+    if (reading == Reading::by_trace) {
+        kernel.store(14, (3 / n2) * (zxx_turned + Number(0.5) * zzz_turned), 3);
+        kernel.store(15, xxx_turned + Number(0.75) * zzx_turned, 3);
+    } else {
+        const Value xyy_turned = dot(y, b.times(y));
+        const Value quarter = Number(0.25) * xxx_turned;
+        kernel.store(14, (3 / (2 * n2)) * difference(x, v, y, a.times(y)), 3);
+        kernel.store(15, quarter - Number(0.75) * xyy_turned, 3);
+    }
 }
 
 }  // namespace
@@ -166,15 +199,16 @@ void build_proper_contraction_band_2(graph::Kernel& kernel, const Matrix3& rows)
     kernel.store(8, form(half_t, x, of_x), 2);
 }
 
-void build_contraction_band(graph::Kernel& kernel, const Matrix3& rows, int l) {
+void build_contraction_band(graph::Kernel& kernel, const Matrix3& rows, int l, Reading reading) {
     kernel.graph.set_scope(fmt::format("b{}", l));
     switch (l) {
         case 1:
             return build_band_1(kernel, rows);
         case 2:
-            return build_band_2(kernel, rows);
+            return reading == Reading::by_trace ? build_band_2(kernel, rows)
+                                                : build_band_2_directly(kernel, rows);
         default:
-            return build_band_3(kernel, rows);
+            return build_band_3(kernel, rows, reading);
     }
 }
 

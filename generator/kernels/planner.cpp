@@ -39,7 +39,9 @@ class SignalBuilder {
     void build_band(int l, const BandPlan& plan) {
         switch (plan.method) {
             case BandMethod::contraction:
-                return build_contraction_band(kernel_, rows_, l);
+                return build_contraction_band(kernel_, rows_, l, Reading::by_trace);
+            case BandMethod::direct_contraction:
+                return build_contraction_band(kernel_, rows_, l, Reading::direct);
             case BandMethod::proper_contraction:
                 kernel_.needs_proper_rotation = true;
                 return build_proper_contraction_band_2(kernel_, rows_);
@@ -88,6 +90,7 @@ std::vector<BandPlan> ways(int l) {
     std::vector<BandPlan> all;
     if (l <= kLargestContractionBand) all.push_back({BandMethod::contraction, {}});
     if (l == 1) return all;  // a vector: nothing beats the product with R
+    if (l <= kLargestContractionBand) all.push_back({BandMethod::direct_contraction, {}});
     if (l == 2) all.push_back({BandMethod::proper_contraction, {}});
     if (l <= kLargestPlannedDenseBand) all.push_back({BandMethod::dense, {}});
     for (const BandForms& forms : band_forms()) all.push_back({BandMethod::zxzxz, forms});
@@ -120,6 +123,8 @@ std::string name_of(const BandPlan& plan) {
     switch (plan.method) {
         case BandMethod::contraction:
             return "contraction";
+        case BandMethod::direct_contraction:
+            return "contraction, read directly";
         case BandMethod::proper_contraction:
             return "contraction for det R = +1";
         case BandMethod::dense:

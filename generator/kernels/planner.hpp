@@ -15,7 +15,7 @@ struct Workload {
     bool takes_mirrors = false;  ///< determinant -1 must come out right without the caller's help
 };
 
-enum class BandMethod { contraction, proper_contraction, zxzxz, dense };
+enum class BandMethod { contraction, direct_contraction, proper_contraction, zxzxz, dense };
 
 /// How one band is turned.
 struct BandPlan {

@@ -5,7 +5,6 @@
 
 #include "order_kernels.hpp"
 #include "support/graph_kernels.hpp"
-#include "support/worst_signal.hpp"
 
 namespace zonal {
 namespace {
@@ -42,30 +41,6 @@ class GraphAccuracy : public testing::TestWithParam<int> {};
 TEST_P(GraphAccuracy, float_is_within_bounds) { expect_within_bounds<float>(GetParam()); }
 TEST_P(GraphAccuracy, double_is_within_bounds) { expect_within_bounds<double>(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(orders, GraphAccuracy, testing::Range(2, 21));
-
-/// At order 3 the leanest contraction leaves more. Noise of 1e-5: what is of second order is below a
-/// thousandth.
-TEST(GraphAccuracyOfNoise, costs_the_worst_signal_what_the_contract_grants_from_order_4_on) {
-    for (const int order : {4, 5, 6, 7, 8}) {
-        const OrderKernels kernels = build_order_kernels(order, {});
-        const auto contestants = graph_contestants<double>(order, kernels.kernels, {});
-        const oracle::Rotation exact(order);
-        std::mt19937_64 random(3);
-        for (int k = 0; k < 20; ++k) {
-            const auto R = cases::with_noise(cases::random_rotation(random), 1e-5, random);
-            oracle::Matrix3 given;
-            std::ranges::copy(R, given.begin());
-            const auto granted = (order - 1) / 2.0 * static_cast<double>(oracle::orthonormality_error(given));
-            const auto blocks = exact.blocks(given);
-            for (const auto& kernel : contestants) {
-                if (kernel.name != "rotate" && kernel.name != "rotate_channels" && kernel.name != "apply")
-                    continue;
-                EXPECT_LE(worst_signal(order, blocks, R.data(), kernel).gain, 1.001 * granted)
-                    << kernel.name << ", order " << order;
-            }
-        }
-    }
-}
 
 }  // namespace
 }  // namespace zonal

@@ -11,8 +11,8 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           apply 8 mul 0 add 26 fma 0 other;
 //             per extra vector 8 mul 0 add 26 fma 0 other
-//           rotate_accurate 47 mul 10 add 50 fma 0 other;
-//             per extra vector 8 mul 0 add 26 fma 0 other
+//           rotate_accurate 20 mul 0 add 39 fma 0 other;
+//             per extra vector 20 mul 0 add 39 fma 0 other
 //           blocks 39 mul 10 add 24 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           factorize 7 mul 2 add 5 fma 0 other;
@@ -49,7 +49,7 @@
 //             for det R = +1 or -1; excess 2.23
 //           apply relative error 1.4e-07 (float), 3.8e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           rotate_accurate relative error 1.4e-07 (float), 3.8e-16 (double),
+//           rotate_accurate relative error 2.4e-07 (float), 5.1e-16 (double),
 //             for det R = +1 or -1; excess 1.08
 //           blocks relative error 1.4e-07 (float), 3.5e-16 (double),
 //             for det R = +1 or -1; excess 1.08
@@ -139,8 +139,8 @@ inline constexpr double kApplyExcess = 1.08;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateAccurateBoundFloat = 1.4e-07;
-inline constexpr double kRotateAccurateBoundDouble = 3.8e-16;
+inline constexpr double kRotateAccurateBoundFloat = 2.4e-07;
+inline constexpr double kRotateAccurateBoundDouble = 5.1e-16;
 inline constexpr double kRotateAccurateExcess = 1.08;
 
 /// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
@@ -543,7 +543,6 @@ void apply(const T* scalars, const V* f, V* out) {
 /// Error: at most (kRotateAccurateBound... + kRotateAccurateExcess |R R^T - I|_F) |f|.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
-/// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T, class V = T>
 void rotate_accurate(const T* R, const V* f, V* out) {
     const T r00 = R[0];
@@ -568,109 +567,61 @@ void rotate_accurate(const T* R, const V* f, V* out) {
     out[1] = b1_3;
     out[2] = b1_6;
     out[3] = b1_9;
-    const T d2_1 = r00 * r11;
-    const T d2_2 = fma(r01, r10, d2_1);
-    const T d2_3 = d2_2 + d2_2;
-    const T d2_0_0 = T(0.5) * d2_3;
-    const T d2_4 = r01 * r12;
-    const T d2_0_1 = fma(r02, r11, d2_4);
-    const T d2_5 = r02 * r12;
-    const T d2_6 = d2_5 + d2_5;
-    const T d2_0_2 = T(0.8660254037844386) * d2_6;
-    const T d2_7 = r00 * r12;
-    const T d2_0_3 = fma(r02, r10, d2_7);
-    const T d2_8 = r00 * r10;
-    const T d2_9 = fma(r01, r11, -d2_8);
-    const T d2_10 = d2_9 + d2_9;
-    const T d2_11 = T(0.5) * d2_10;
-    const T d2_12 = r10 * r21;
-    const T d2_1_0 = fma(r11, r20, d2_12);
-    const T d2_13 = r12 * r21;
-    const T d2_1_1 = fma(r11, r22, d2_13);
-    const T d2_14 = r12 * r22;
-    const T d2_15 = d2_14 + d2_14;
-    const T d2_1_2 = T(0.8660254037844386) * d2_15;
-    const T d2_16 = r12 * r20;
-    const T d2_1_3 = fma(r10, r22, d2_16);
-    const T d2_17 = r11 * r21;
-    const T d2_1_4 = fma(r10, r20, -d2_17);
-    const T d2_18 = r20 * r21;
-    const T d2_19 = d2_18 + d2_18;
-    const T d2_2_0 = T(0.8660254037844386) * d2_19;
-    const T d2_20 = r21 * r22;
-    const T d2_21 = r11 * r12;
-    const T d2_22 = fma(r01, r02, d2_21);
-    const T d2_23 = T(0.57735026918962573) * d2_22;
-    const T d2_2_1 = fma(T(1.1547005383792515), d2_20, -d2_23);
-    const T d2_24 = r12 * r12;
-    const T d2_25 = fma(r02, r02, d2_24);
-    const T d2_26 = T(0.5) * d2_25;
-    const T d2_2_2 = fma(r22, r22, -d2_26);
-    const T d2_27 = r20 * r22;
-    const T d2_28 = r10 * r12;
-    const T d2_29 = fma(r00, r02, d2_28);
-    const T d2_30 = T(0.57735026918962573) * d2_29;
-    const T d2_2_3 = fma(T(1.1547005383792515), d2_27, -d2_30);
-    const T d2_31 = r21 * r21;
-    const T d2_32 = fma(r20, r20, -d2_31);
-    const T d2_2_4 = T(0.8660254037844386) * d2_32;
-    const T d2_33 = r00 * r21;
-    const T d2_3_0 = fma(r01, r20, d2_33);
-    const T d2_34 = r02 * r21;
-    const T d2_3_1 = fma(r01, r22, d2_34);
-    const T d2_35 = r02 * r22;
-    const T d2_36 = d2_35 + d2_35;
-    const T d2_3_2 = T(0.8660254037844386) * d2_36;
-    const T d2_37 = r02 * r20;
-    const T d2_3_3 = fma(r00, r22, d2_37);
-    const T d2_38 = r01 * r21;
-    const T d2_3_4 = fma(r00, r20, -d2_38);
-    const T d2_39 = r00 * r01;
-    const T d2_40 = d2_39 + d2_39;
-    const T d2_41 = r10 * r11;
-    const T d2_42 = d2_41 + d2_41;
-    const T d2_43 = d2_40 - d2_42;
-    const T d2_4_0 = T(0.5) * d2_43;
-    const T d2_4_1 = fma(r01, r02, -d2_21);
-    const T d2_44 = fma(r02, r02, -d2_24);
-    const T d2_4_2 = T(0.8660254037844386) * d2_44;
-    const T d2_4_3 = fma(r00, r02, -d2_28);
-    const T d2_45 = r00 * r00;
-    const T d2_46 = fma(r01, r01, -d2_45);
-    const T d2_47 = r10 * r10;
-    const T d2_48 = fma(r11, r11, -d2_47);
-    const T d2_49 = d2_46 - d2_48;
-    const T d2_50 = T(0.5) * d2_49;
-    const V b2_1 = d2_0_1 * f[5];
-    const V b2_2 = fma(d2_0_0, f[4], b2_1);
-    const V b2_3 = fma(d2_0_2, f[6], b2_2);
-    const V b2_4 = fma(d2_0_3, f[7], b2_3);
-    const V b2_5 = fma(-d2_11, f[8], b2_4);
-    const V b2_6 = d2_1_1 * f[5];
-    const V b2_7 = fma(d2_1_0, f[4], b2_6);
-    const V b2_8 = fma(d2_1_2, f[6], b2_7);
-    const V b2_9 = fma(d2_1_3, f[7], b2_8);
-    const V b2_10 = fma(d2_1_4, f[8], b2_9);
-    const V b2_11 = d2_2_1 * f[5];
-    const V b2_12 = fma(d2_2_0, f[4], b2_11);
-    const V b2_13 = fma(d2_2_2, f[6], b2_12);
-    const V b2_14 = fma(d2_2_3, f[7], b2_13);
-    const V b2_15 = fma(d2_2_4, f[8], b2_14);
-    const V b2_16 = d2_3_1 * f[5];
-    const V b2_17 = fma(d2_3_0, f[4], b2_16);
-    const V b2_18 = fma(d2_3_2, f[6], b2_17);
-    const V b2_19 = fma(d2_3_3, f[7], b2_18);
-    const V b2_20 = fma(d2_3_4, f[8], b2_19);
-    const V b2_21 = d2_4_1 * f[5];
-    const V b2_22 = fma(d2_4_0, f[4], b2_21);
-    const V b2_23 = fma(d2_4_2, f[6], b2_22);
-    const V b2_24 = fma(d2_4_3, f[7], b2_23);
-    const V b2_25 = fma(-d2_50, f[8], b2_24);
-    out[4] = b2_5;
-    out[5] = b2_10;
-    out[6] = b2_15;
-    out[7] = b2_20;
-    out[8] = b2_25;
+    const V b2_1 = fma(T(-0.57735026918962573), f[6], f[8]);
+    const V b2_2 = fma(T(0.57735026918962573), f[6], f[8]);
+    const V b2_3 = T(1.1547005383792515) * f[6];
+    const V b2_4 = r21 * f[4];
+    const V b2_5 = fma(r20, b2_1, b2_4);
+    const V b2_6 = fma(r22, f[7], b2_5);
+    const V b2_7 = r21 * b2_2;
+    const V b2_8 = fma(r20, f[4], -b2_7);
+    const V b2_9 = fma(r22, f[5], b2_8);
+    const V b2_10 = r21 * f[5];
+    const V b2_11 = fma(r20, f[7], b2_10);
+    const V b2_12 = fma(r22, b2_3, b2_11);
+    const V b2_13 = r01 * f[4];
+    const V b2_14 = fma(r00, b2_1, b2_13);
+    const V b2_15 = fma(r02, f[7], b2_14);
+    const V b2_16 = r01 * b2_2;
+    const V b2_17 = fma(r00, f[4], -b2_16);
+    const V b2_18 = fma(r02, f[5], b2_17);
+    const V b2_19 = r01 * f[5];
+    const V b2_20 = fma(r00, f[7], b2_19);
+    const V b2_21 = fma(r02, b2_3, b2_20);
+    const V b2_22 = r11 * f[4];
+    const V b2_23 = fma(r10, b2_1, b2_22);
+    const V b2_24 = fma(r12, f[7], b2_23);
+    const V b2_25 = r11 * b2_2;
+    const V b2_26 = fma(r10, f[4], -b2_25);
+    const V b2_27 = fma(r12, f[5], b2_26);
+    const V b2_28 = r11 * f[5];
+    const V b2_29 = fma(r10, f[7], b2_28);
+    const V b2_30 = fma(r12, b2_3, b2_29);
+    const V b2_31 = r11 * b2_18;
+    const V b2_32 = fma(r10, b2_15, b2_31);
+    const V b2_33 = fma(r12, b2_21, b2_32);
+    const V b2_34 = r11 * b2_9;
+    const V b2_35 = fma(r10, b2_6, b2_34);
+    const V b2_36 = fma(r12, b2_12, b2_35);
+    const V b2_37 = r21 * b2_9;
+    const V b2_38 = fma(r20, b2_6, b2_37);
+    const V b2_39 = fma(r22, b2_12, b2_38);
+    const V b2_40 = T(0.8660254037844386) * b2_39;
+    const V b2_41 = r01 * b2_9;
+    const V b2_42 = fma(r00, b2_6, b2_41);
+    const V b2_43 = fma(r02, b2_12, b2_42);
+    const V b2_44 = r01 * b2_18;
+    const V b2_45 = fma(r00, b2_15, b2_44);
+    const V b2_46 = fma(r02, b2_21, b2_45);
+    const V b2_47 = fma(-r10, b2_24, b2_46);
+    const V b2_48 = fma(-r11, b2_27, b2_47);
+    const V b2_49 = fma(-r12, b2_30, b2_48);
+    const V b2_50 = T(0.5) * b2_49;
+    out[4] = b2_33;
+    out[5] = b2_36;
+    out[6] = b2_40;
+    out[7] = b2_43;
+    out[8] = b2_50;
 }
 
 /// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
