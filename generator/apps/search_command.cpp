@@ -9,14 +9,14 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "exact/angles.hpp"
+#include "apps/front_file.hpp"
 #include "kernels/registry.hpp"
 #include "lobe_table.hpp"
 #include "order_kernels.hpp"
 #include "output_file.hpp"
+#include "search/front.hpp"
 #include "search/off_grid_search.hpp"
 #include "search/orbit_search.hpp"
 #include "search/progress_text.hpp"
@@ -85,15 +85,6 @@ std::optional<LobeTable> read_start(const Options& options) {
     return read_lobe_table(options.resume, options.use());
 }
 
-search::AngledSet angled_lobes(const LobeTable& table) {
-    search::AngledSet lobes;
-    for (const auto& [theta, phi] : table.angles) {
-        lobes.push_back(
-            {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
-    }
-    return lobes;
-}
-
 search::SearchSettings settings_of(const Options& options, const search::Problem& problem,
                                    const std::optional<LobeTable>& start) {
     search::SearchSettings settings;
@@ -113,7 +104,7 @@ search::SearchSettings settings_of(const Options& options, const search::Problem
     genetic.elite = options.elite;
     genetic.crossover_fraction = options.crossover;
     genetic.mutation_rate = options.mutation;
-    if (start) settings.start = angled_lobes(*start);
+    if (start) settings.start = angled_lobes(start->angles);
     return settings;
 }
 
@@ -181,25 +172,6 @@ void check_use(const Options& options) {
         throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
 }
 
-std::string archive_text(const Options& options, const std::optional<LobeTable>& start,
-                         const search::SearchResult& result) {
-    nlohmann::ordered_json sets = nlohmann::ordered_json::array();
-    for (const search::Solution& solution : result.front) {
-        nlohmann::ordered_json angles = nlohmann::ordered_json::array();
-        for (const search::AngledLobe& lobe : search::in_reading_order(solution.lobes))
-            angles.push_back({lobe.theta.text, lobe.phi.text});
-        sets.push_back({{"nonzeros", solution.score.nonzeros},
-                        {"multiplications", solution.score.multiplications},
-                        {"cond", solution.score.condition},
-                        {"angles", angles}});
-    }
-    const nlohmann::ordered_json archive{
-        {options.use().field, options.use().value},
-        {"command", canonical_command(options, start, result.progress.generation)},
-        {"sets", sets}};
-    return archive.dump(2) + "\n";
-}
-
 int emitted_instructions(const exact::BandFactorization& band) {
     return kernels::factorization_counts(band).instructions();
 }
@@ -227,6 +199,8 @@ void run(const Options& options) {
     if (!options.archive.empty()) check_is_writable("--archive", options.archive);
     const search::Problem problem = options.problem();
     const std::optional<LobeTable> start = read_start(options);
+    std::vector<FoundSet> front;
+    if (!options.archive.empty()) front = read_front(options.archive, options.use(), problem);
     const search::SearchSettings settings = settings_of(options, problem, start);
 
     const bool is_watched = isatty(STDERR_FILENO) != 0;
@@ -260,8 +234,12 @@ void run(const Options& options) {
     }
     write_lobe_table(options.out,
                      start && found_in == 0 ? *start : table_of(options, start, result.best, found_in));
-    if (!options.archive.empty())
-        write_file_atomically(options.archive, archive_text(options, start, result));
+    if (!options.archive.empty()) {
+        const std::string command = canonical_command(options, start, result.progress.generation);
+        for (const search::Solution& solution : result.front)
+            search::add_to_front(front, FoundSet{solution, command});
+        write_front(options.archive, options.use(), front);
+    }
     fmt::print("{}\n", options.out);
 }
 
@@ -300,7 +278,7 @@ void add_search_command(CLI::App& app) {
         ->check(CLI::Range(1, 60));
     command->add_option("--archive", o.archive,
                         "JSON file for the sets that no other beats in nonzeros, multiplications and "
-                        "condition at once");
+                        "condition at once; those of earlier searches stay unless beaten");
     CLI::Option* mirrors =
         command
             ->add_option(

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "lobe_table.hpp"
 
@@ -79,6 +82,65 @@ TEST_F(SearchCommand, a_walk_without_a_start_is_refused) {
     EXPECT_NE(search("--band 4 --walk", "b.json"), 0);
     EXPECT_THAT(bytes("output"), HasSubstr("--walk requires --resume"));
     EXPECT_FALSE(fs::exists(path("b.json")));
+}
+
+/// Nonzeros, multiplications and condition of every set of an archive.
+std::vector<std::array<double, 3>> sets_of(const std::string& archive) {
+    std::vector<std::array<double, 3>> sets;
+    const auto json = nlohmann::json::parse(archive);
+    for (const auto& set : json.at("sets"))
+        sets.push_back({set.at("nonzeros"), set.at("multiplications"), set.at("cond")});
+    return sets;
+}
+
+TEST_F(SearchCommand, adds_to_an_archive_and_loses_nothing_of_it) {
+    const std::string archive = " --archive '" + path("front.json") + "'";
+    ASSERT_EQ(search("--band 5 --generations 2 --on-grid --local-moves 300 --condition-weight 5" + archive,
+                     "a.json"),
+              0);
+    const auto before = sets_of(bytes("front.json"));
+    ASSERT_EQ(search("--band 5 --seed 2 --generations 2 --local-moves 3000" + archive, "b.json"), 0);
+    const auto after = sets_of(bytes("front.json"));
+    EXPECT_NE(after, before);
+    for (const auto& set : before)
+        EXPECT_TRUE(std::ranges::any_of(after, [&](const auto& other) {
+            return other[0] <= set[0] && other[1] <= set[1] && other[2] <= set[2] * (1 + 1e-9);
+        }));
+    for (const auto& set : after)
+        EXPECT_EQ(std::ranges::count_if(after,
+                                        [&](const auto& other) {
+                                            return other[0] <= set[0] && other[1] <= set[1] &&
+                                                   other[2] <= set[2];
+                                        }),
+                  1)
+            << "beaten by another set of the same archive";
+    EXPECT_THAT(bytes("front.json"), HasSubstr("--seed 2 --generations 2"));
+}
+
+TEST_F(SearchCommand, believes_no_archive_that_its_angles_do_not_confirm) {
+    const std::string options = "--band 3 --generations 1 --on-grid --archive '" + path("front.json") + "'";
+    ASSERT_EQ(search(options, "a.json"), 0);
+    const auto complaint_about = [&](const auto& change) {
+        auto json = nlohmann::json::parse(bytes("front.json"));
+        const std::string whole = bytes("front.json");
+        change(json);
+        std::ofstream(path("front.json")) << json.dump();
+        const std::string changed = bytes("front.json");
+        EXPECT_NE(search(options, "b.json"), 0);
+        EXPECT_EQ(bytes("front.json"), changed) << "it is lost";
+        EXPECT_FALSE(fs::exists(path("b.json")));
+        std::ofstream(path("front.json")) << whole;
+        return bytes("output");
+    };
+    EXPECT_THAT(complaint_about([](auto& json) { json["band"] = 4; }),
+                HasSubstr("front.json: band: found 4, wanted 3"));
+    EXPECT_THAT(complaint_about([](auto& json) { json["sets"][0]["nonzeros"] = 7; }),
+                HasSubstr("sets[0].nonzeros: found 7, wanted 1"));
+    EXPECT_THAT(complaint_about([](auto& json) { json["sets"][0]["angles"][0][0] = "pi/"; }),
+                HasSubstr("sets[0].angles: found "));
+    EXPECT_THAT(complaint_about([](auto& json) { json["sets"][0].erase("command"); }),
+                HasSubstr("sets[0].command: found nothing, wanted a text"));
+    EXPECT_THAT(complaint_about([](auto& json) { json = "no archive"; }), HasSubstr("band: found nothing"));
 }
 
 }  // namespace
