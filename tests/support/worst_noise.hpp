@@ -1,7 +1,7 @@
 #pragma once
 
-// What noise in R costs a kernel at the worst, over noise and signal both: no oracle, since to first order the
-// orthonormal matrix nearest to (I + S) Q, S small and symmetric, is Q, and a kernel is right at Q.
+// What noise in R costs a kernel at the worst, over noise and signal both: no oracle, since to first order
+// the orthonormal matrix nearest to (I + S) Q, S small and symmetric, is Q, and a kernel is right at Q.
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace zonal {
 
-/// Band l's largest |error| / (‖R Rᵀ - I‖_F |f|), to first order in the noise, for R near `rotation`: band l's
-/// is entry l. Each is found by taking the best noise for a signal and the best signal for the noise in turn,
-/// from every unit vector of the band: what is returned is met, and seldom passed.
+/// Band l's largest |error| / (‖R Rᵀ - I‖_F |f|), to first order in the noise, for R near `rotation`: band
+/// l's is entry l. Each is found by taking the best noise for a signal and the best signal for the noise in
+/// turn, from every unit vector of the band: what is returned is met, and seldom passed.
 inline std::vector<double> worst_noise(int order, const accuracy::Contestant<double>& kernel,
                                        const cases::Matrix& rotation) {
     using Block = Eigen::MatrixXd;
@@ -57,7 +57,9 @@ inline std::vector<double> worst_noise(int order, const accuracy::Contestant<dou
                 Block errors(size, kKinds);
                 for (int k = 0; k < kKinds; ++k) errors.col(k) = slopes[l][k] * f;
                 const Eigen::VectorXd noise =
-                    Eigen::JacobiSVD<Block>(errors, Eigen::ComputeThinU | Eigen::ComputeThinV).matrixV().col(0);
+                    Eigen::JacobiSVD<Block>(errors, Eigen::ComputeThinU | Eigen::ComputeThinV)
+                        .matrixV()
+                        .col(0);
                 Block error = Block::Zero(size, size);
                 for (int k = 0; k < kKinds; ++k) error += noise(k) * slopes[l][k];
                 const Eigen::JacobiSVD<Block> svd(error, Eigen::ComputeThinU | Eigen::ComputeThinV);
