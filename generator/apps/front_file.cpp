@@ -19,7 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Conditions are read as they were written; they are computed by another order of sums elsewhere.
+/// The file has every digit, but its lobes in another order than those that were scored: sums round
+/// otherwise.
 constexpr double kConditionTolerance = 1e-9;
 
 class Reader {
