@@ -24,7 +24,7 @@ double worst_of_rotations(int order, const accuracy::Contestant<double>& kernel,
 class GraphNoise : public testing::TestWithParam<int> {};
 
 /// Two groups keep what they publish alone. The leanest contraction shifts S, which R gives back only as far
-/// as it is orthonormal. Dense blocks divide by parts of R: at one of 300 rotations of order 8 the worst
+/// as it is orthonormal. Dense blocks divide by parts of R: at a rotation of order 8 the worst
 /// noise costs 3.50005 where 3.5 is granted.
 TEST_P(GraphNoise, costs_what_the_contract_grants) {
     const int order = GetParam();
