@@ -43,6 +43,18 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
 }
 INSTANTIATE_TEST_SUITE_P(orders, GraphNoise, testing::Range(2, 9));
 
+TEST(NoiseOfRotatePolynomial, of_order_4_costs_band_3_more_than_the_contract_grants) {
+    const OrderKernels kernels = build_order_kernels(4, {});
+    for (const auto& kernel : graph_contestants<double>(4, kernels.kernels, {})) {
+        if (kernel.name != "rotate_polynomial") continue;
+        std::mt19937_64 random(5);
+        double worst = 0;
+        for (int k = 0; k < 100; ++k)
+            worst = std::max(worst, worst_noise(4, kernel, cases::random_rotation(random))[3]);
+        EXPECT_NEAR(worst, 1.74, 0.02);
+    }
+}
+
 using Eigen::Matrix3d;
 
 /// Band 2 by S' = R (S + shift I) Rᵀ - shift I, f its tensor S's five numbers; the y entry on the diagonal
