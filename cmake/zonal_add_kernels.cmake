@@ -44,7 +44,8 @@ function(zonal_add_kernels target)
       set(digits "0${order}")
     endif()
     set(header "${folder}/zonal/order${digits}.hpp")
-    file(GLOB tables "${ZONAL_TABLES_FOLDER}/order${digits}.json" "${ZONAL_TABLES_FOLDER}/band*.json" "${ZONAL_TABLES_FOLDER}/mirrored/*.json"
+    file(GLOB tables "${ZONAL_TABLES_FOLDER}/order${digits}.json" "${ZONAL_TABLES_FOLDER}/conditioned/order${digits}.json"
+      "${ZONAL_TABLES_FOLDER}/band*.json" "${ZONAL_TABLES_FOLDER}/mirrored/*.json"
       "${ZONAL_TABLES_FOLDER}/bounds.json")
     add_custom_command(OUTPUT "${header}"
       COMMAND ${program} emit --order ${order} --language ${arg_LANGUAGE} --out "${folder}"

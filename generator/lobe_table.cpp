@@ -253,6 +253,8 @@ std::filesystem::path LobeUse::table_name() const { return fmt::format("{}{:02d}
 
 std::filesystem::path LobeUse::mirrored_table_name() const { return "mirrored" / table_name(); }
 
+std::filesystem::path LobeUse::conditioned_table_name() const { return "conditioned" / table_name(); }
+
 void measure_lobe_table(LobeTable& table) {
     table.zeros.clear();
     table.condition.clear();

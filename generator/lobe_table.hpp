@@ -32,6 +32,8 @@ struct LobeUse {
     std::filesystem::path table_name() const;
     /// The same of the lobes closed under mirrors: mirrored/bandLL.json.
     std::filesystem::path mirrored_table_name() const;
+    /// The same of the lobes under a lower cap on the condition: conditioned/orderNN.json.
+    std::filesystem::path conditioned_table_name() const;
 };
 
 /// Saved lobe directions and how they were found. Schema: generator/tables/README.md.
@@ -45,6 +47,9 @@ struct LobeTable {
     std::vector<double> condition;                          ///< cond_2(Y_l) per band of `use`
     int nonzeros = 0;                                       ///< of all Â_l with l >= 2
     std::string sha256;                                     ///< of the file's bytes, hex; set by `read`
+
+    /// The digits of `sha256` by which banners and the file of bounds name the table.
+    std::string short_hash() const { return sha256.substr(0, 16); }
 };
 
 /// Largest cond_2(Y_l) a table may have in any band.

@@ -36,16 +36,18 @@ std::string name_in_banner(const std::filesystem::path& table_name) {
     return ("generator/tables" / table_name).string();
 }
 
-std::optional<OrderLobes> load_lobes(int order, const std::filesystem::path& table_path) {
-    const bool is_own = table_path.empty();
-    const LobeUse use = LobeUse::order(order);
-    const std::filesystem::path path = is_own ? tables_folder() / use.table_name() : table_path;
-    if (is_own && !std::filesystem::exists(path)) return std::nullopt;
+OrderLobes read_lobes(int order, const std::filesystem::path& path, const std::string& name) {
     OrderLobes lobes;
-    lobes.source = {read_lobe_table(path, use),
-                    is_own ? name_in_banner(use.table_name()) : path.filename().string()};
+    lobes.source = {read_lobe_table(path, LobeUse::order(order)), name};
     lobes.set = kernels::LobeSet::shared(order, lobes.source.table.directions);
     return lobes;
+}
+
+/// The lobes of the project's own table of this name; none where it has no such table.
+std::optional<OrderLobes> load_own_lobes(int order, const std::filesystem::path& table_name) {
+    const std::filesystem::path path = tables_folder() / table_name;
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    return read_lobes(order, path, name_in_banner(table_name));
 }
 
 /// Of a band's tables the one whose product takes fewest instructions; none where it has no table.
@@ -91,13 +93,20 @@ OrderKernels build_order_kernels(int order, const std::filesystem::path& table_p
     check_order(order);
     OrderKernels result;
     result.order = order;
-    result.lobes = load_lobes(order, table_path);
+    if (table_path.empty()) {
+        const LobeUse use = LobeUse::order(order);
+        result.lobes = load_own_lobes(order, use.table_name());
+        if (result.lobes) result.turned = load_own_lobes(order, use.conditioned_table_name());
+    } else {
+        result.lobes = read_lobes(order, table_path, table_path.filename().string());
+    }
     if (result.lobes) result.band_lobes = load_band_lobes(order);
-    result.kernels =
-        kernels::build_order(order, {.shared = result.lobes ? &result.lobes->set : nullptr,
-                                     .per_band = result.band_lobes ? &result.band_lobes->set : nullptr});
+    const auto set_of = [](const auto& lobes) { return lobes ? &lobes->set : nullptr; };
+    result.kernels = kernels::build_order(order, {.shared = set_of(result.lobes),
+                                                  .turned = set_of(result.turned),
+                                                  .per_band = set_of(result.band_lobes)});
     result.bounds = read_bounds(tables_folder() / "bounds.json", order,
-                                result.lobes ? result.lobes->source.table.sha256.substr(0, kHashDigits) : "");
+                                result.lobes ? result.turned_source().table.short_hash() : "");
     return result;
 }
 

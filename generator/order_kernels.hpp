@@ -16,8 +16,6 @@ namespace zonal {
 /// Order 1 is a constant: nothing turns.
 inline constexpr int kSmallestOrder = 2;
 inline constexpr int kLargestOrder = 20;
-/// Digits of a table's sha256 that banners and the file of bounds name it by.
-inline constexpr int kHashDigits = 16;
 
 /// Throws `UserError` unless `smallest` <= order <= kLargestOrder.
 void check_order(int order, int smallest = kSmallestOrder);
@@ -44,9 +42,13 @@ struct BandLobes {
 struct OrderKernels {
     int order = 0;
     std::optional<OrderLobes> lobes;      ///< none where the project has no table of this order
+    std::optional<OrderLobes> turned;     ///< those of `rotate_zhf`, where they are better conditioned ones
     std::optional<BandLobes> band_lobes;  ///< none where a band's table is missing
     std::vector<graph::Kernel> kernels;
     std::map<std::string, emit::Bound> bounds;  ///< those published for these very kernels
+
+    /// The table that `rotate_zhf` is made from; precondition: there are lobes.
+    const NamedTable& turned_source() const { return turned ? turned->source : lobes->source; }
 };
 
 /// Loads the table of an order and builds every kernel. `table_path` empty: the project's own table, or none

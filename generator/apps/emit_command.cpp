@@ -104,9 +104,10 @@ const Language& find_language(const std::string& name) {
 std::vector<std::string> tables_of(const OrderKernels& order) {
     if (!order.lobes) return {"none for this order, so no searched lobes: zonal-gen search"};
     const auto describe = [](const NamedTable& source) {
-        return fmt::format("{}  sha256:{}", source.name, source.table.sha256.substr(0, kHashDigits));
+        return fmt::format("{}  sha256:{}", source.name, source.table.short_hash());
     };
     std::vector<std::string> tables{describe(order.lobes->source)};
+    if (order.turned) tables.push_back(describe(order.turned->source) + ", of rotate_zhf");
     if (order.band_lobes)
         for (const NamedTable& source : order.band_lobes->sources) tables.push_back(describe(source));
     return tables;

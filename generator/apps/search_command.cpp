@@ -72,7 +72,9 @@ struct Options {
     LobeUse use() const { return band > 0 ? LobeUse::band(band) : LobeUse::order(order); }
     /// Path of the table inside a tables folder.
     std::filesystem::path table_path() const {
-        return mirrors > 0 ? use().mirrored_table_name() : use().table_name();
+        if (mirrors > 0) return use().mirrored_table_name();
+        const bool is_conditioned = band == 0 && objective.condition_cap < kConditionCap;
+        return is_conditioned ? use().conditioned_table_name() : use().table_name();
     }
     search::Problem problem() const {
         return band > 0 ? search::Problem::one_band(band) : search::Problem::shared(order);

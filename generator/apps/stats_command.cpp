@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -94,6 +95,10 @@ Json to_json(const OrderKernels& order) {
         json["table"] = order.lobes->source.name;
         json["nonzeros"] = table.nonzeros;
         json["bands"] = bands;
+        const LobeTable& turned = order.turned_source().table;
+        json["rotate_zhf"] = {{"table", order.turned_source().name},
+                              {"nonzeros", turned.nonzeros},
+                              {"cond", std::ranges::max(turned.condition)}};
     }
     if (order.band_lobes) json["per_band"] = to_json(*order.band_lobes);
     json["methods"] = methods_to_json(order.order);

@@ -48,7 +48,9 @@ std::vector<Kernel> build_order(int order, const OrderLobeSets& lobes) {
         kernels.insert(kernels.end(), more.begin(), more.end());
     };
     if (lobes.shared) {
-        std::vector<Kernel> shared = lobe_kernels(*lobes.shared, "", kAll);
+        const LobeSet& turned = lobes.turned ? *lobes.turned : *lobes.shared;
+        std::vector<Kernel> shared = lobe_kernels(*lobes.shared, "", kProducts);
+        shared.push_back(lobe_kernels(turned, "", {build_rotate_zhf}).front());
         for (Kernel& kernel : shared) kernel.needs_lobes = true;
         append(shared);
         if (lobes.per_band) append(per_band_kernels(*lobes.per_band, shared));

@@ -13,6 +13,7 @@ inline constexpr int kSmallestLobeOrder = 3;
 /// The searched lobes of an order, as far as there are any.
 struct OrderLobeSets {
     const LobeSet* shared = nullptr;
+    const LobeSet* turned = nullptr;    ///< those of `rotate_zhf`, if not the shared ones
     const LobeSet* per_band = nullptr;  ///< only beside shared ones
 };
 

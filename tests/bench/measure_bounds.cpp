@@ -152,7 +152,7 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
     for (const graph::Kernel& kernel : order.kernels) {
         if (!kernel.has_bound) continue;
         const std::string table =
-            kernel.needs_lobes ? order.lobes->source.table.sha256.substr(0, kHashDigits) : std::string{};
+            kernel.needs_lobes ? order.turned_source().table.short_hash() : std::string{};
         entries.push_back({{"kernel", kernel.full_name()},
                            {"order", n},
                            {"table", table},

@@ -42,6 +42,10 @@ struct Worst {
     /// Less (N-1)/2 ‖R Rᵀ - I‖_F, over the rotations that are orthonormal as far as T tells.
     double error_of_rotations = 0;
     std::string name_of_rotations;
+    /// The same of the worst band that turns: bands turn apart, so that band l of a result is the turn of a
+    /// signal that has energy in band l alone. Over signals whose bands are of like size.
+    double error_of_bands = 0;
+    std::string name_of_bands;
 };
 template <class T>
 std::vector<Worst> worst_errors(const oracle::Rotation& exact, const std::vector<Problem>& problems,

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -260,6 +261,7 @@ TEST(LobeUse, names_its_table_by_two_digits) {
     EXPECT_EQ(LobeUse::order(4).table_name(), "order04.json");
     EXPECT_EQ(LobeUse::order(12).table_name(), "order12.json");
     EXPECT_EQ(LobeUse::band(7).table_name(), "band07.json");
+    EXPECT_EQ(LobeUse::order(9).conditioned_table_name(), "conditioned/order09.json");
 }
 
 TEST(LobeUse, band_takes_twice_its_number_and_one_lobes) {
@@ -307,6 +309,19 @@ TEST_P(CommittedTableOfAnOrder, is_verified_and_not_worse_than_promised) {
 }
 
 INSTANTIATE_TEST_SUITE_P(orders, CommittedTableOfAnOrder, testing::Range(3, 21));
+
+class ConditionedTableOfAnOrder : public testing::TestWithParam<int> {};
+
+TEST_P(ConditionedTableOfAnOrder, is_verified_and_better_conditioned_than_the_sparsest_lobes) {
+    const LobeUse use = LobeUse::order(GetParam());
+    const LobeTable conditioned =
+        read_lobe_table(fs::path(ZONAL_TABLES_DIR) / use.conditioned_table_name(), use);
+    EXPECT_THAT(conditioned.command,
+                HasSubstr("--out generator/tables/" + use.conditioned_table_name().string()));
+    EXPECT_LT(std::ranges::max(conditioned.condition), std::ranges::max(committed_table(use).condition));
+}
+
+INSTANTIATE_TEST_SUITE_P(orders, ConditionedTableOfAnOrder, testing::Values(8, 9, 10));
 
 class CommittedTableOfABand : public testing::TestWithParam<int> {};
 
