@@ -103,11 +103,11 @@ const Language& find_language(const std::string& name) {
 
 std::vector<std::string> tables_of(const OrderKernels& order) {
     if (!order.lobes) return {"none for this order, so no searched lobes: zonal-gen search"};
-    const auto describe = [](const NamedTable& source) {
-        return fmt::format("{}  sha256:{}", source.name, source.table.short_hash());
+    const auto describe = [](const NamedTable& source, const char* use = "") {
+        return fmt::format("{}  sha256:{}{}", source.name, source.table.short_hash(), use);
     };
     std::vector<std::string> tables{describe(order.lobes->source)};
-    if (order.turned) tables.push_back(describe(order.turned->source) + ", of rotate_zhf");
+    if (order.turned) tables.push_back(describe(order.turned->source, ", of rotate_zhf"));
     if (order.band_lobes)
         for (const NamedTable& source : order.band_lobes->sources) tables.push_back(describe(source));
     return tables;

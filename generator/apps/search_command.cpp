@@ -70,11 +70,12 @@ struct Options {
     search::Objective objective;
 
     LobeUse use() const { return band > 0 ? LobeUse::band(band) : LobeUse::order(order); }
-    /// Path of the table inside a tables folder.
+    /// Path of the table inside a tables folder: among the better conditioned ones where `--out` is.
     std::filesystem::path table_path() const {
         if (mirrors > 0) return use().mirrored_table_name();
-        const bool is_conditioned = band == 0 && objective.condition_cap < kConditionCap;
-        return is_conditioned ? use().conditioned_table_name() : use().table_name();
+        const std::filesystem::path conditioned = use().conditioned_table_name();
+        const std::filesystem::path folder = std::filesystem::path(out).parent_path().filename();
+        return folder == conditioned.parent_path() ? conditioned : use().table_name();
     }
     search::Problem problem() const {
         return band > 0 ? search::Problem::one_band(band) : search::Problem::shared(order);

@@ -34,6 +34,10 @@ void expect_within_bounds(int order) {
             << name << ", order " << order << ", " << worst[k].name;
         EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))
             << name << ", order " << order << ", " << worst[k].name_of_rotations;
+        // A band whose lobes have a high condition is far worse than the whole signal tells.
+        if (name != "rotate_zhf") continue;
+        EXPECT_LE(worst[k].error_of_bands, accuracy::contract(name, order, kIsFloat))
+            << name << ", order " << order << ", " << worst[k].name_of_bands;
     }
 }
 
