@@ -13,7 +13,6 @@ using graph::Kernel;
 
 using Builder = Kernel (*)(const LobeSet&);
 const std::vector<Builder> kProducts{build_factorize, build_expand, build_resample, build_lobes};
-const std::vector<Builder> kAll{build_factorize, build_expand, build_resample, build_lobes, build_rotate_zhf};
 
 std::vector<Kernel> lobe_kernels(const LobeSet& lobes, const std::string& variant,
                                  const std::vector<Builder>& builders) {
@@ -22,6 +21,14 @@ std::vector<Kernel> lobe_kernels(const LobeSet& lobes, const std::string& varian
         kernels.push_back(graph::optimize(build(lobes)));
         kernels.back().variant = variant;
     }
+    return kernels;
+}
+
+/// The products of the lobes, and `rotate_zhf` of those that turn.
+std::vector<Kernel> lobe_kernels_and_turn(const LobeSet& lobes, const LobeSet& turned,
+                                          const std::string& variant) {
+    std::vector<Kernel> kernels = lobe_kernels(lobes, variant, kProducts);
+    kernels.push_back(lobe_kernels(turned, variant, {build_rotate_zhf}).front());
     return kernels;
 }
 
@@ -49,13 +56,15 @@ std::vector<Kernel> build_order(int order, const OrderLobeSets& lobes) {
     };
     if (lobes.shared) {
         const LobeSet& turned = lobes.turned ? *lobes.turned : *lobes.shared;
-        std::vector<Kernel> shared = lobe_kernels(*lobes.shared, "", kProducts);
-        shared.push_back(lobe_kernels(turned, "", {build_rotate_zhf}).front());
+        std::vector<Kernel> shared = lobe_kernels_and_turn(*lobes.shared, turned, "");
         for (Kernel& kernel : shared) kernel.needs_lobes = true;
         append(shared);
         if (lobes.per_band) append(per_band_kernels(*lobes.per_band, shared));
     }
-    if (order >= kSmallestLobeOrder) append(lobe_kernels(LobeSet::ring(order), "stable", kAll));
+    if (order >= kSmallestLobeOrder) {
+        const LobeSet ring = LobeSet::ring(order);
+        append(lobe_kernels_and_turn(ring, ring, "stable"));
+    }
     return kernels;
 }
 
