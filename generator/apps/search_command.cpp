@@ -257,7 +257,10 @@ void add_search_command(CLI::App& app) {
     use->add_option("--order", o.order, "number of bands that share the lobes, 3 to 20");
     CLI::Option* band = use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");
     use->require_option(1);
-    command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
+    command
+        ->add_option("--out", o.out,
+                     "table to write; rewritten whenever a better one is found; in a folder named "
+                     "conditioned, for rotate_zhf alone")
         ->required();
     command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
     command
