@@ -181,9 +181,9 @@ double batch_error(int order, const Workload& workload) {
     });
 }
 
-/// Instructions of the generated kernels for one vector with all its channels.
+/// Instructions of the kernels for one vector with all its channels.
 template <int N>
-int instructions_of(const Workload& workload, bool is_fused) {
+int instructions_of(const Workload& workload, bool is_fused, bool has_blocks) {
     using Kernels = PackKernels<N>;
     Counting R[9], f[N * N], scalars[Kernels::kScalars];
     const auto counted = [&](const auto& kernel) {
@@ -196,14 +196,16 @@ int instructions_of(const Workload& workload, bool is_fused) {
     const int prepare = counted([&] { Kernels::prepare(R, scalars); });
     const int apply = counted([&] { Kernels::apply(scalars, f); });
     if (workload.rotation_length > 0 && workload.channels == 1) return once;
+    if (workload.name == "all-rgb" && has_blocks && turns_three_channels_densely(N))
+        return (N * (4 * N * N - 1) / 3 - 1) * 3 * (is_fused ? 1 : 2);
     return static_cast<int>(workload.channels) * apply + (workload.rotation_length > 0 ? prepare : 0);
 }
 
-int instructions_of(int order, const Workload& workload, bool is_fused) {
+int instructions_of(int order, const Workload& workload, bool is_fused, bool has_blocks) {
     switch (order) {
 #define ZONAL_BENCH_CASE(N) \
     case N:                 \
-        return instructions_of<N>(workload, is_fused);
+        return instructions_of<N>(workload, is_fused, has_blocks);
         ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_CASE)
 #undef ZONAL_BENCH_CASE
     }
@@ -266,7 +268,8 @@ std::vector<Contestant> contestants_of(int order, const Workload& workload, cons
         for (const SingleCall<T>& call : single_calls<T>(order)) add(call);
     } else {
         contestants.push_back({"zonal", [=] { rotate_batch(order, workload, data); }, vectors,
-                               static_cast<double>(instructions_of(order, workload, peak.is_fused)) /
+                               static_cast<double>(instructions_of(order, workload, peak.is_fused,
+                                                                   sizeof(T) == 4 && peak.lanes >= 4)) /
                                    static_cast<double>(peak.lanes),
                                batch_error<T>(order, workload)});
         if (workload.name == "all") add(dense_product<T>(order));

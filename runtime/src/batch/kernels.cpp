@@ -1,10 +1,11 @@
 // Batches on packs, for one instruction set and one type: CMake compiles this file once for each, with
 // ZONAL_BATCH_SCALAR (float or double) and ZONAL_BATCH_ENTRY (the name of the table defined at the end).
 // Method: read as many vectors and rotations as a pack has lanes, transposed in registers; run the generated
-// kernel on packs, in place; write back. What is left at the end, and layouts that blocks of 16 bytes do not
-// fit, go through a copy on the stack with the same kernel.
-// Only Highway, the generated headers and plain headers of this folder may be included here: any inline
-// function of the standard library could be the copy that the linker keeps for every processor.
+// kernel on packs, in place; write back (three channels by one rotation otherwise, see three_channels.hpp).
+// What is left at the end, and layouts that blocks of 16 bytes do not fit, go through a copy on the stack
+// with the same kernel. Only Highway, the generated headers and plain headers of this folder may be included
+// here: any inline function of the standard library could be the copy that the linker keeps for every
+// processor.
 
 #define HWY_COMPILE_ONLY_STATIC
 #include <type_traits>
@@ -13,6 +14,7 @@
 #include "order_kernels.hpp"
 #include "pack.hpp"
 #include "stream.hpp"
+#include "three_channels.hpp"
 #include "transpose.hpp"
 
 /// Everything that the function's body calls becomes part of it.
@@ -465,6 +467,8 @@ void each(const Job<T>& job) {
 
 template <int N, int kFirst>
 void all(const Job<T>& job) {
+    if constexpr (kHasBlocksOfFour<T> && turns_three_channels_densely(N))
+        if (job.is_interleaved && job.channels == 3) return turn_three_channels<T, N, kFirst>(job);
     using Turn = Prepared<N, RotationForm::matrix, Use::all_vectors>;
     Turn turn;
     turn.load(job.rotations, 0);  // stride 0: the same in every lane

@@ -26,6 +26,10 @@ struct PackKernels;
         static void apply(const P* scalars, P* f) {                         \
             order##N::apply<P, P>(scalars, f, f);                           \
         }                                                                   \
+        template <class P>                                                  \
+        static void blocks(const P* rotation, P* dense) {                   \
+            order##N::blocks<P>(rotation, dense);                           \
+        }                                                                   \
     };
 ZONAL_FOR_EACH_ORDER(ZONAL_PACK_KERNELS)
 #undef ZONAL_PACK_KERNELS
@@ -52,5 +56,9 @@ struct AtOnce {
     };
 ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_POLYNOMIAL_KERNEL)
 #undef ZONAL_POLYNOMIAL_KERNEL
+
+/// Three interleaved channels of float, all vectors by one rotation: products with dense blocks, which need
+/// no transposition, are faster than `prepare` and `apply` in these orders.
+constexpr bool turns_three_channels_densely(int order) { return 3 <= order && order <= 6; }
 
 }  // namespace zonal
