@@ -1,11 +1,11 @@
 // Batches on packs, for one instruction set and one type: CMake compiles this file once for each, with
 // ZONAL_BATCH_SCALAR (float or double) and ZONAL_BATCH_ENTRY (the name of the table defined at the end).
 // Method: read as many vectors and rotations as a pack has lanes, transposed in registers; run the generated
-// kernel on packs, in place; write back (three channels by one rotation otherwise, see three_channels.hpp).
-// What is left at the end, and layouts that blocks of 16 bytes do not fit, go through a copy on the stack
-// with the same kernel. Only Highway, the generated headers and plain headers of this folder may be included
-// here: any inline function of the standard library could be the copy that the linker keeps for every
-// processor.
+// kernel on packs, in place; write back. What is left at the end, and layouts that blocks of 16 bytes do not
+// fit, go through a copy on the stack with the same kernel. Three channels by one rotation need no
+// transposition (three_channels.hpp).
+// Only Highway, the generated headers and plain headers of this folder may be included here: any inline
+// function of the standard library could be the copy that the linker keeps for every processor.
 
 #define HWY_COMPILE_ONLY_STATIC
 #include <type_traits>
