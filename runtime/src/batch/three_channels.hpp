@@ -15,11 +15,19 @@
 namespace zonal::batch {
 namespace {
 
-/// Blocks of 16 bytes have room for three channels, and there are such blocks.
-template <class T>
-inline constexpr bool kHasBlocksOfFour = sizeof(T) == 4 && kLanes<T> >= 4;
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128  // no blocks, or such as are loops
 
-#if HWY_TARGET != HWY_SCALAR
+template <class T>
+inline constexpr bool kHasBlocksOfFour = false;
+
+template <class T, int N, int kFirst>
+void turn_three_channels(const Job<T>&);
+
+#else
+
+/// A block of 16 bytes has room for three channels and one value more.
+template <class T>
+inline constexpr bool kHasBlocksOfFour = sizeof(T) == 4;
 
 /// The dense matrices of order N >= 3, spread over registers. kFirst: 1 where band 0 is apart, else 0.
 template <class T, int N, int kFirst>
@@ -167,7 +175,7 @@ class ThreeChannels {
 template <class T, int N, int kFirst>
 void turn_three_channels(const Job<T>& job) {
     using Dense = ThreeChannels<T, N, kFirst>;
-    constexpr std::size_t kStep = 16;  ///< vectors that are staged at once
+    constexpr std::size_t kStep = 8;  ///< vectors that are staged at once: within one page
     constexpr std::size_t kTogether = Dense::kTogether, kLength = Dense::kLength;
     using Writer = Stream<T, kStep * kLength>;
     constexpr std::size_t kPace = (kTogether * kLength + Writer::kLine - 1) / Writer::kLine * Writer::kLine;
@@ -191,11 +199,6 @@ void turn_three_channels(const Job<T>& job) {
     }
     if (job.is_streamed) writer.finish();
 }
-
-#else
-
-template <class T, int N, int kFirst>
-void turn_three_channels(const Job<T>&);
 
 #endif
 
