@@ -209,8 +209,8 @@ std::string message_of(const std::function<void()>& call) {
 constexpr Form kForms[] = {Form::matrices, Form::quaternions, Form::one_for_all};
 
 /// The kernel that a batch runs, whose error is published: everything at once where that is faster, else the
-/// two halves, or dense blocks where a value a lane has room for interleaved channels (not on the baseline,
-/// which may be without lanes).
+/// two halves; dense blocks for three interleaved channels of float by one rotation (not on the baseline,
+/// which may have no registers of four values).
 template <class T>
 std::string kernel_that_runs(std::string_view target, int order, Form form, int channels) {
     const bool has_blocks = std::is_same_v<T, float> && target != "baseline";

@@ -88,7 +88,7 @@ void rotate_each(int order, const RotationQuaternions<double>& rotations, const 
 
 /// Turns every vector of a batch by one rotation; what depends on the rotation only is computed once.
 /// All else as in `rotate_each`; a NaN or infinity in the rotation spoils every vector. Three interleaved
-/// channels of float are as accurate as `blocks` in orders 3 to 6.
+/// channels of float are as accurate as `blocks` in orders 3 to 6 where there is SSE4 or NEON.
 void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,
                 std::span<const float> in, std::span<float> out, const Executor& executor = {});
 void rotate_all(int order, const RotationMatrix<double>& rotation, const BatchLayout& layout,
