@@ -16,11 +16,8 @@ command -v npm >/dev/null || packages+=(npm) # a Node.js from elsewhere brings i
 bash "$root/cmake/install_packages.sh" "${packages[@]}"
 chromium=$(command -v chromium)
 
+cmake --build "$build" --target zonal-gen zonal-lit-sphere
 judge=$build/bin/zonal-lit-sphere
-if [ ! -x "$judge" ]; then
-  echo "$judge: found nothing, wanted the program; build it: cmake --build $build --target zonal-lit-sphere" >&2
-  exit 1
-fi
 
 # npm installs beside the scripts that import: copies, so that the sources stay clean.
 mkdir -p "$work"

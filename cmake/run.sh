@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The main job: searches lobes for an order, emits and compiles its kernels, and rotates a real environment map
-# by them. Writes under build/run/ only.
+# by them. Writes under build/run/, and builds zonal-gen in build/release/.
 #   bash cmake/run.sh [--accept] [ORDER [MAP [options for zonal-rotate-map, such as --axis 0 0 1 --angle-degrees 30]]]
 # ORDER: 3 … 20, default 4. MAP: latitude-longitude .exr or .hdr, default tests/data/studio.exr.
 # --accept: also puts the table and the code in place, under generator/tables and generated/.
@@ -16,19 +16,18 @@ cd "$root"
 bash cmake/install_packages.sh
 out=$root/build/run
 mkdir -p "$out"
-build() { # FOLDER TARGETS [options of cmake]: quiet unless it fails
-  local folder=$1 targets=$2
+build() { # FOLDER TARGETS [options of cmake]: by the release preset; quiet unless it fails
+  local folder=$1 targets=$2 log=$out/$(basename "$1").log
   shift 2
   echo "building: $targets"
-  if ! { cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" &&
-    cmake --build "$folder" --target $targets; } >"$folder.log" 2>&1; then
-    cat "$folder.log" >&2
+  if ! { cmake --preset release -B "$folder" "$@" && cmake --build "$folder" --target $targets; } >"$log" 2>&1; then
+    cat "$log" >&2
     exit 1
   fi
 }
 
-build "$out/generator" zonal-gen
-gen=$out/generator/bin/zonal-gen
+build build/release zonal-gen # where cmake/test.sh builds too
+gen=$root/build/release/bin/zonal-gen
 table=$out/tables/order$(printf %02d "$order" 2>/dev/null || echo "$order").json
 "$gen" search --order "$order" --out "$table"
 "$gen" emit --order "$order" --language cpp --table "$table" --out "$out/generated/cpp"

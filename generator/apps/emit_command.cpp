@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct EmitOptions {
     int order = 0;
     std::string language;
     std::string table;
@@ -40,7 +40,7 @@ std::string as_bytes(const std::vector<std::uint32_t>& words) {
 }
 
 /// Every module is assembled and validated before it is written.
-Files spirv_files(const emit::Unit& unit, const Options& options) {
+Files spirv_files(const emit::Unit& unit, const EmitOptions& options) {
     Files files;
     for (emit::SpirvModule& module : emit::print_spirv(unit)) {
         if (options.is_optimized) module.file.content = emit::optimize_spirv(module.file.content, module.use);
@@ -72,21 +72,21 @@ Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
     return files;
 }
 
-using Language = std::function<Files(const emit::Unit&, const OrderKernels&, const Options&)>;
+using Language = std::function<Files(const emit::Unit&, const OrderKernels&, const EmitOptions&)>;
 
 /// Adding a language is one entry here.
 const std::map<std::string, Language>& languages() {
     static const std::map<std::string, Language> all{
         {"cpp",
-         [](const emit::Unit& unit, const OrderKernels&, const Options&) -> Files {
+         [](const emit::Unit& unit, const OrderKernels&, const EmitOptions&) -> Files {
              return {{"zonal/" + unit.file_stem + ".hpp", emit::print_cpp(unit)}};
          }},
         {"glsl", [](const emit::Unit& unit, const OrderKernels& order,
-                    const Options&) { return glsl_files(unit, order); }},
+                    const EmitOptions&) { return glsl_files(unit, order); }},
         {"spirv", [](const emit::Unit& unit, const OrderKernels&,
-                     const Options& options) { return spirv_files(unit, options); }},
+                     const EmitOptions& options) { return spirv_files(unit, options); }},
         {"wgsl",
-         [](const emit::Unit& unit, const OrderKernels&, const Options&) -> Files {
+         [](const emit::Unit& unit, const OrderKernels&, const EmitOptions&) -> Files {
              return {{unit.file_stem + ".wgsl", emit::print_wgsl(unit)}};
          }},
     };
@@ -113,7 +113,7 @@ std::vector<std::string> tables_of(const OrderKernels& order) {
     return tables;
 }
 
-emit::Unit make_unit(const Options& options, const OrderKernels& order) {
+emit::Unit make_unit(const EmitOptions& options, const OrderKernels& order) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", options.order);
     unit.file_stem = fmt::format("order{:02}", options.order);
@@ -148,7 +148,7 @@ emit::Unit make_unit(const Options& options, const OrderKernels& order) {
     return unit;
 }
 
-void run(const Options& options) {
+void run(const EmitOptions& options) {
     const Language& language = find_language(options.language);
     if ((options.is_optimized || options.is_binary) && options.language != "spirv")
         throw UserError(
@@ -165,7 +165,7 @@ void run(const Options& options) {
 
 void add_emit_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<EmitOptions>();
     command->add_option("--order", options->order, "number of bands")->required();
     command->add_option("--language", options->language, "cpp, glsl, spirv or wgsl")->required();
     command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");

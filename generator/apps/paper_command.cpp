@@ -14,14 +14,14 @@
 namespace zonal {
 namespace {
 
-struct Options {
+struct PaperOptions {
     bool as_json = false;
     std::string html;
     int sets = 1000;
     std::uint64_t seed = 1;
 };
 
-void run(const Options& options) {
+void run(const PaperOptions& options) {
     if (!options.html.empty()) check_is_writable("--html", options.html);
     const bool is_watched = isatty(STDERR_FILENO) != 0;
     const auto show = [&](const std::string& step) {
@@ -41,7 +41,7 @@ void run(const Options& options) {
 void add_paper_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "paper", "this project's numbers beside the paper's Tables I and II, Figure 3 and eq. 8");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PaperOptions>();
     command->add_flag("--json", options->as_json, "print JSON");
     command->add_option("--html", options->html, "page to write as well");
     command->add_option("--sets", options->sets, "random lobe sets of an order; fewer above order 10")

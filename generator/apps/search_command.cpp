@@ -45,7 +45,7 @@ class InterruptGuard {
 };
 
 /// As the person typed them; zero means "by the method".
-struct Options {
+struct SearchOptions {
     int order = 0;
     int band = 0;
     std::uint64_t seed = 1;
@@ -83,12 +83,12 @@ struct Options {
 };
 
 /// The table that `--resume` names.
-std::optional<LobeTable> read_start(const Options& options) {
+std::optional<LobeTable> read_start(const SearchOptions& options) {
     if (options.resume.empty()) return std::nullopt;
     return read_lobe_table(options.resume, options.use());
 }
 
-search::SearchSettings settings_of(const Options& options, const search::Problem& problem,
+search::SearchSettings settings_of(const SearchOptions& options, const search::Problem& problem,
                                    const std::optional<LobeTable>& start) {
     search::SearchSettings settings;
     settings.seed = options.seed;
@@ -120,9 +120,9 @@ std::string path_in(const std::string& commands, const std::string& otherwise) {
 
 /// The commands that repeat a search: those that made its start, and its own of so many generations with
 /// every option that is not the default. Paths are those of the repository, whatever was typed.
-std::string canonical_command(const Options& options, const std::optional<LobeTable>& start,
+std::string canonical_command(const SearchOptions& options, const std::optional<LobeTable>& start,
                               int generations) {
-    const Options standard;
+    const SearchOptions standard;
     const LobeUse use = options.use();
     std::string command = fmt::format("zonal-gen search --{} {} --seed {} --generations {}", use.field,
                                       use.value, options.seed, generations);
@@ -154,7 +154,7 @@ std::string canonical_command(const Options& options, const std::optional<LobeTa
     return command + " --out " + table;
 }
 
-LobeTable table_of(const Options& options, const std::optional<LobeTable>& start,
+LobeTable table_of(const SearchOptions& options, const std::optional<LobeTable>& start,
                    const search::Solution& solution, int generations) {
     LobeTable table;
     table.use = options.use();
@@ -169,7 +169,7 @@ LobeTable table_of(const Options& options, const std::optional<LobeTable>& start
     return table;
 }
 
-void check_use(const Options& options) {
+void check_use(const SearchOptions& options) {
     if (options.band == 0) return check_order(options.order, kernels::kSmallestLobeOrder);
     if (options.band < 2 || options.band >= kLargestOrder)
         throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
@@ -179,7 +179,7 @@ int emitted_instructions(const exact::BandFactorization& band) {
     return kernels::factorization_counts(band).instructions();
 }
 
-search::SearchResult find_lobes(const Options& options, const search::Problem& problem,
+search::SearchResult find_lobes(const SearchOptions& options, const search::Problem& problem,
                                 const search::SearchSettings& settings,
                                 const search::SearchObserver& observer) {
     if (options.walks)
@@ -196,7 +196,7 @@ search::SearchResult find_lobes(const Options& options, const search::Problem& p
     }
 }
 
-void run(const Options& options) {
+void run(const SearchOptions& options) {
     check_use(options);
     check_is_writable("--out", options.out);
     if (!options.archive.empty()) check_is_writable("--archive", options.archive);
@@ -251,8 +251,8 @@ void run(const Options& options) {
 void add_search_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("search", "seek lobe directions for an order and save them as a table");
-    const auto options = std::make_shared<Options>();
-    Options& o = *options;
+    const auto options = std::make_shared<SearchOptions>();
+    SearchOptions& o = *options;
     CLI::Option_group* use = command->add_option_group("use", "what the lobes are for");
     use->add_option("--order", o.order, "number of bands that share the lobes, 3 to 20");
     CLI::Option* band = use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");

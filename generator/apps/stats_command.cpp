@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct StatsOptions {
     int order = 0;
     std::string table;
     bool as_json = false;
@@ -135,7 +135,7 @@ void print_table(const Json& stats) {
 
 void add_stats_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("stats", "count the operations of every kernel of an order");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StatsOptions>();
     command->add_option("--order", options->order, "number of bands")->required();
     command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");
     command->add_flag("--json", options->as_json, "print JSON");

@@ -239,7 +239,7 @@ Real cheapest_weight_scale(const exact::BandFactorization& band) {
 }
 
 /// Band 1 is a vector in space (y, z, x): the paper turns it directly ("optimal linear lobe").
-void build_band_1(Kernel& kernel, const Matrix3& rows) {
+void turn_band_1(Kernel& kernel, const Matrix3& rows) {
     const std::array<int, 3> axis_of{1, 2, 0};  // of coefficients 1, 2, 3
     kernel.graph.set_scope("b1");
     for (int i = 0; i < 3; ++i) {
@@ -400,12 +400,12 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
     kernel.store(0, kernel.input(1, 0), 0);
     if (lobes.order == 3 && !lobes.is_ring) {
         // One band to turn: six lobes as a tensor cost less than an orthonormal matrix.
-        build_band_1(kernel, given);
+        turn_band_1(kernel, given);
         build_band_2_tensor(kernel, given, lobes);
         return kernel;
     }
     const Matrix3 rows = orthonormalized(kernel, given);
-    build_band_1(kernel, rows);
+    turn_band_1(kernel, rows);
     std::vector<LobeHarmonics> harmonics;
     for (int d = 0; d < static_cast<int>(lobes.directions.size()); ++d) {
         kernel.graph.set_scope(fmt::format("d{}", d));

@@ -78,7 +78,7 @@ class SignalBuilder {
     std::vector<std::vector<Value>> blocks_;
 };
 
-int weight(const graph::Cost& cost, const Workload& workload) {
+int weighted(const graph::Cost& cost, const Workload& workload) {
     constexpr int kWeightOfDivision = 8;
     const auto of = [](const graph::Counts& c) {
         return c.mul + c.add + c.fma + kWeightOfDivision * c.other;
@@ -137,7 +137,7 @@ std::string name_of(const BandPlan& plan) {
 }
 
 int weight(const Kernel& kernel, const Workload& workload) {
-    return weight(graph::count_operations(kernel), workload);
+    return weighted(graph::count_operations(kernel), workload);
 }
 
 Kernel build_plan(int order, const Plan& plan) {
@@ -181,12 +181,12 @@ Plan cheapest_plan(int order, const Workload& workload) {
         std::vector<Alternative> all = alternatives(order, l);
         std::erase_if(all, [&](const Alternative& a) { return !is_fit_for(a.plan, order, workload); });
         std::stable_sort(all.begin(), all.end(), [&](const Alternative& a, const Alternative& b) {
-            return weight(a.cost, workload) < weight(b.cost, workload);
+            return weighted(a.cost, workload) < weighted(b.cost, workload);
         });
         std::map<BandMethod, int> least;
         candidates.emplace_back();
         for (const Alternative& a : all) {
-            const int w = weight(a.cost, workload);
+            const int w = weighted(a.cost, workload);
             least.try_emplace(a.plan.method, w);
             if (w <= least[a.plan.method] + kMostSaved) candidates.back().push_back(a.plan);
         }

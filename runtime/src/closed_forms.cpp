@@ -23,7 +23,7 @@
 namespace zonal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 using Bands = std::array<double, kMaxOrder>;
 
@@ -68,7 +68,7 @@ double luminance(const Rgb<double>& colour) {
     return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b;  // ITU-R BT.709
 }
 
-double light_scale(int order) { return 4 * kPi / (order * order); }
+double light_scale(int order) { return 4 * pi / (order * order); }
 
 }  // namespace
 
@@ -83,7 +83,7 @@ void turn_zonal(int order, std::span<const double> zonal, const Eigen::Vector3d&
                      .next_step = "pass one zonal coefficient a band"});
     }
     Bands factors;
-    for (int l = 0; l < order; ++l) factors[l] = std::sqrt(4 * kPi / (2 * l + 1)) * zonal[l];
+    for (int l = 0; l < order; ++l) factors[l] = std::sqrt(4 * pi / (2 * l + 1)) * zonal[l];
     evaluate_basis(order, direction, out);
     scale_bands(order, factors, std::span<const double>(out), out);
 }
@@ -95,9 +95,9 @@ double clamped_cosine_factor(int l) {
                      .wanted = "at least 0",
                      .next_step = "choose a band of the signal"});
     }
-    if (l == 1) return 2 * kPi / 3;
+    if (l == 1) return 2 * pi / 3;
     if (l % 2 == 1) return 0;
-    double factor = kPi;
+    double factor = pi;
     for (int k = 2; k <= l; k += 2) factor *= (3.0 - k) / (k + 2.0);
     return factor;
 }

@@ -31,7 +31,7 @@
 namespace zonal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 enum class Axes {
     kOurs,
@@ -136,14 +136,14 @@ std::array<FuMaChannel, kMaxScaledOrder * kMaxScaledOrder> fuma_channels() {
 }
 
 /// A unit source is y_l^m(d) in our basis and, in SN3D, has W = 1: SN3D over ours.
-double sn3d_scale(int l) { return std::sqrt(4 * kPi / (2 * l + 1)); }
+double sn3d_scale(int l) { return std::sqrt(4 * pi / (2 * l + 1)); }
 
 /// Unity stores the factors of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2: ours times the basis constants.
 double unity_scale(int l, int m) {
-    if (l == 0) return std::sqrt(1 / (4 * kPi));
-    if (l == 1) return std::sqrt(3 / (4 * kPi));
-    if (m == 0) return std::sqrt(5 / (16 * kPi));
-    return std::sqrt((m == 2 ? 15 / 4.0 : 15) / (4 * kPi));
+    if (l == 0) return std::sqrt(1 / (4 * pi));
+    if (l == 1) return std::sqrt(3 / (4 * pi));
+    if (m == 0) return std::sqrt(5 / (16 * pi));
+    return std::sqrt((m == 2 ? 15 / 4.0 : 15) / (4 * pi));
 }
 
 Place place_of(Convention convention, int l, int m) {
@@ -156,7 +156,7 @@ Place place_of(Convention convention, int l, int m) {
         case Convention::kAmbixSn3d:
             return {index, sn3d_scale(l)};
         case Convention::kAmbixN3d:
-            return {index, std::sqrt(4 * kPi)};
+            return {index, std::sqrt(4 * pi)};
         case Convention::kFuMa: {
             if (l >= kMaxScaledOrder) return {};
             const FuMaChannel channel = fuma_channels()[index];

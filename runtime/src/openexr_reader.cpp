@@ -30,7 +30,7 @@ void check_channels(const std::filesystem::path& path, const Imf::ChannelList& c
     }
 }
 
-DecodedMap decode(const std::filesystem::path& path) {
+DecodedMap decode_openexr(const std::filesystem::path& path) {
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
     check_channels(path, header.channels());
@@ -60,7 +60,7 @@ DecodedMap decode(const std::filesystem::path& path) {
 
 DecodedMap read_openexr(const std::filesystem::path& path) {
     try {
-        return decode(path);
+        return decode_openexr(path);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& exception) {  // OpenEXR's own, and std::bad_alloc for an absurd size

@@ -21,7 +21,7 @@
 namespace zonal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct PolarNode {
     double sin_theta;
@@ -39,7 +39,7 @@ constexpr std::array<std::array<double, 2>, 4> kGauss = {{{0.183434642495649805,
 
 /// The nodes of row `row` when [0, pi] is cut into `rows` equal parts.
 std::array<PolarNode, 2 * kGauss.size()> polar_nodes(int row, int rows) {
-    const double half_height = 0.5 * kPi / rows;
+    const double half_height = 0.5 * pi / rows;
     const double centre = (2 * row + 1) * half_height;
     std::array<PolarNode, 2 * kGauss.size()> nodes;
     auto node = nodes.begin();
@@ -67,7 +67,7 @@ void integrate_row(int order, int row, int rows, std::span<double> integrals) {
 struct AzimuthTable {
     AzimuthTable(int order, int width)
         : cosines(static_cast<std::size_t>(order) * width), sines(cosines.size()) {
-        const double step = 2 * kPi / width;
+        const double step = 2 * pi / width;
         for (int m = 0; m < order; ++m) {
             const double half_angle = 0.5 * m * step;
             const double texel = m == 0 ? step : step * std::sin(half_angle) / half_angle;
@@ -144,11 +144,11 @@ std::vector<Rgb<double>> project(int order,
     for (int row = 0; row < rows; ++row) {
         for (const PolarNode& node : polar_nodes(row, rows)) {
             for (int column = 0; column < columns; ++column) {
-                const double phi_rad = 2 * kPi * (column + 0.5) / columns;
+                const double phi_rad = 2 * pi * (column + 0.5) / columns;
                 const Eigen::Vector3d direction(node.sin_theta * std::cos(phi_rad),
                                                 node.sin_theta * std::sin(phi_rad), node.cos_theta);
                 evaluate_basis(order, direction, basis);
-                const Rgb<double> value = (node.weight * 2 * kPi / columns) * function(direction);
+                const Rgb<double> value = (node.weight * 2 * pi / columns) * function(direction);
                 for (std::size_t i = 0; i < basis.size(); ++i) {
                     coefficients[i] = coefficients[i] + basis[i] * value;
                 }

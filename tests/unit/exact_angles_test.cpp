@@ -9,18 +9,18 @@
 namespace zonal::exact {
 namespace {
 
-const Real kTolerance{"1e-48"};
+const Real kAngleTolerance{"1e-48"};
 
-Real pi() { return boost::math::constants::pi<Real>(); }
+const Real kPi = boost::math::constants::pi<Real>();
 
 TEST(ClosedForm, reads_the_forms_that_tables_use) {
     EXPECT_EQ(evaluate_closed_form("0"), 0);
-    EXPECT_LT(abs(evaluate_closed_form("pi/2") - pi() / 2), kTolerance);
-    EXPECT_LT(abs(evaluate_closed_form("3*pi/8") - 3 * pi() / 8), kTolerance);
-    EXPECT_LT(abs(evaluate_closed_form("acos(sqrt(3/7))") - acos(sqrt(Real(3) / 7))), kTolerance);
+    EXPECT_LT(abs(evaluate_closed_form("pi/2") - kPi / 2), kAngleTolerance);
+    EXPECT_LT(abs(evaluate_closed_form("3*pi/8") - 3 * kPi / 8), kAngleTolerance);
+    EXPECT_LT(abs(evaluate_closed_form("acos(sqrt(3/7))") - acos(sqrt(Real(3) / 7))), kAngleTolerance);
     EXPECT_LT(abs(evaluate_closed_form("acos(sqrt((15-2*sqrt(30))/35))") -
                   acos(sqrt((15 - 2 * sqrt(Real(30))) / 35))),
-              kTolerance);
+              kAngleTolerance);
 }
 
 TEST(ClosedForm, keeps_every_digit_of_a_decimal) {
@@ -55,12 +55,12 @@ TEST(ClosedForm, quotes_what_it_cannot_read) {
 }
 
 TEST(DirectionOf, coordinate_planes_have_exact_zeros) {
-    const Direction<Real> x = direction_of(pi() / 2, Real(0));
+    const Direction<Real> x = direction_of(kPi / 2, Real(0));
     EXPECT_EQ(x(1), 0);
     EXPECT_EQ(x(2), 0);
-    const Direction<Real> minus_y = direction_of(pi() / 2, 3 * pi() / 2);
+    const Direction<Real> minus_y = direction_of(kPi / 2, 3 * kPi / 2);
     EXPECT_EQ(minus_y(0), 0);
-    EXPECT_LT(abs(minus_y(1) + 1), kTolerance);
+    EXPECT_LT(abs(minus_y(1) + 1), kAngleTolerance);
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 namespace zonal::exact {
 namespace {
 
-const Real kTolerance{"1e-47"};
+const Real kZeroTolerance{"1e-47"};
 
 void expect_zeros(int l, int m, const std::vector<Real>& wanted) {
     const std::vector<Real> found = legendre_zeros(l, m);
     ASSERT_EQ(found.size(), wanted.size()) << "P_" << l << "^" << m;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        EXPECT_LT(abs(found[i] - wanted[i]), kTolerance) << "P_" << l << "^" << m;
+        EXPECT_LT(abs(found[i] - wanted[i]), kZeroTolerance) << "P_" << l << "^" << m;
     }
 }
 

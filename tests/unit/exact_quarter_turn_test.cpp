@@ -7,7 +7,7 @@
 namespace zonal::exact {
 namespace {
 
-const Real kTolerance{"1e-40"};
+const Real kBlockTolerance{"1e-40"};
 
 Real distance_from_identity(const Matrix<Real>& matrix) {
     return (matrix - Matrix<Real>::Identity(matrix.rows(), matrix.cols())).norm();
@@ -19,7 +19,7 @@ TEST(QuarterTurn, takes_the_harmonics_to_those_with_y_as_polar_axis) {
     for (int l = 0; l < 20; ++l) {
         const Vector<Real> turned = evaluate_band<Real>(l, {x, -z, y});
         const Vector<Real> values = quarter_turn(l).transpose() * evaluate_band<Real>(l, {x, y, z});
-        EXPECT_LT((turned - values).norm(), kTolerance) << "band " << l;
+        EXPECT_LT((turned - values).norm(), kBlockTolerance) << "band " << l;
     }
 }
 
@@ -38,10 +38,10 @@ TEST(QuarterTurn, blocks_hold_every_entry_that_is_not_zero) {
         Real inside = 0;
         for (const QuarterTurnBlock& block : quarter_turn_blocks(l)) {
             EXPECT_EQ(block.rows.size(), block.columns.size()) << "band " << l;
-            EXPECT_LT(distance_from_identity(block.matrix * block.matrix.transpose()), kTolerance);
+            EXPECT_LT(distance_from_identity(block.matrix * block.matrix.transpose()), kBlockTolerance);
             inside += block.matrix.squaredNorm();
         }
-        EXPECT_LT(abs(inside - (2 * l + 1)), kTolerance) << "band " << l;
+        EXPECT_LT(abs(inside - (2 * l + 1)), kBlockTolerance) << "band " << l;
     }
 }
 
@@ -51,14 +51,14 @@ TEST(QuarterTurn, block_of_band_5_has_the_entries_of_its_closed_form) {
     const int squares[3][3] = {{4, 42, 210}, {42, 169, 45}, {210, 45, 1}};
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            EXPECT_LT(abs(block.matrix(i, j) * block.matrix(i, j) * 256 - squares[i][j]), kTolerance);
+            EXPECT_LT(abs(block.matrix(i, j) * block.matrix(i, j) * 256 - squares[i][j]), kBlockTolerance);
 }
 
 TEST(OrthogonalBlock, steps_make_the_matrix_again) {
     for (int l = 1; l < 20; ++l) {
         for (const QuarterTurnBlock& block : quarter_turn_blocks(l)) {
             const BlockSteps steps = factorize_orthogonal(block.matrix);
-            EXPECT_LT((multiplied_out(steps) - block.matrix).norm(), kTolerance) << "band " << l;
+            EXPECT_LT((multiplied_out(steps) - block.matrix).norm(), kBlockTolerance) << "band " << l;
         }
     }
 }
@@ -100,7 +100,8 @@ TEST(ScaledBlocks, steps_make_the_matrices_with_scaled_columns) {
             ASSERT_EQ(scaled.blocks.size(), group.size());
             for (std::size_t k = 0; k < group.size(); ++k) {
                 const Matrix<Real> expected = with_scaled_columns(group[k], scaled.scales);
-                EXPECT_LT((multiplied_out(scaled.blocks[k]) - expected).norm(), kTolerance) << "band " << l;
+                EXPECT_LT((multiplied_out(scaled.blocks[k]) - expected).norm(), kBlockTolerance)
+                    << "band " << l;
             }
         }
     }

@@ -13,7 +13,7 @@ namespace {
 
 using exact::Real;
 
-const Real kTolerance{"1e-47"};
+const Real kCandidateTolerance{"1e-47"};
 
 bool has_text(const std::vector<Angle>& angles, const std::string& text) {
     return std::ranges::any_of(angles, [&](const Angle& angle) { return angle.text == text; });
@@ -23,7 +23,8 @@ TEST(Candidates, texts_evaluate_to_their_angles) {
     const CandidateGrid grid(8);
     for (const auto* angles : {&grid.thetas(), &grid.phis()}) {
         for (const Angle& angle : *angles) {
-            EXPECT_LT(abs(exact::evaluate_closed_form(angle.text) - angle.value), kTolerance) << angle.text;
+            EXPECT_LT(abs(exact::evaluate_closed_form(angle.text) - angle.value), kCandidateTolerance)
+                << angle.text;
         }
     }
 }
@@ -45,7 +46,7 @@ TEST(Candidates, hold_every_zero_once) {
         for (int m = 0; m < l; ++m) {
             for (const Angle& zero : legendre_zero_angles(l, m)) {
                 const auto count = std::ranges::count_if(grid.thetas(), [&](const Angle& theta) {
-                    return abs(theta.value - zero.value) < kTolerance;
+                    return abs(theta.value - zero.value) < kCandidateTolerance;
                 });
                 EXPECT_EQ(count, 1) << zero.text;
             }

@@ -4,11 +4,10 @@
 #include "search/progress_text.hpp"
 #include "search/search.hpp"
 #include "support/lobe_sets.hpp"
+#include "support/no_stop.hpp"
 
 namespace zonal::search {
 namespace {
-
-const std::atomic<bool> kNoStop = false;
 
 SearchSettings settings_for(const Problem& problem, int generations) {
     SearchSettings settings;

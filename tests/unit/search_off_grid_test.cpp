@@ -6,11 +6,10 @@
 #include "search/off_grid_search.hpp"
 #include "search/polish.hpp"
 #include "support/lobe_sets.hpp"
+#include "support/no_stop.hpp"
 
 namespace zonal::search {
 namespace {
-
-const std::atomic<bool> kNoStop = false;
 
 constexpr int kMoves = 300;
 

@@ -9,14 +9,13 @@
 #include "lobe_table.hpp"
 #include "order_kernels.hpp"
 #include "search/orbit_search.hpp"
+#include "support/no_stop.hpp"
 
 namespace zonal::search {
 namespace {
 
 using testing::Each;
 using testing::Ge;
-
-const std::atomic<bool> kNoStop = false;
 
 struct Orbits {
     CandidateGrid grid;
