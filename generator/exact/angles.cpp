@@ -11,6 +11,8 @@ namespace {
 
 namespace x3 = boost::spirit::x3;
 
+namespace grammar {
+
 const x3::rule<struct SumRule, Real> sum = "sum";
 const x3::rule<struct ProductRule, Real> product = "product";
 const x3::rule<struct FactorRule, Real> factor = "factor";
@@ -48,12 +50,13 @@ const auto factor_def = '-' >> factor[negate] | "sqrt" >> parenthesised[square_r
 
 BOOST_SPIRIT_DEFINE(sum, product, factor)
 
+}  // namespace grammar
 }  // namespace
 
 Real evaluate_closed_form(std::string_view text) {
     Real value;
     auto place = text.begin();
-    if (!x3::phrase_parse(place, text.end(), sum, x3::blank, value) || place != text.end())
+    if (!x3::phrase_parse(place, text.end(), grammar::sum, x3::blank, value) || place != text.end())
         throw std::invalid_argument("cannot read \"" + std::string(text) + "\" from character " +
                                     std::to_string(place - text.begin() + 1));
     return value;
