@@ -213,20 +213,33 @@ fs::path copy_of_generated(const std::string& name) {
     return folder;
 }
 
-Outcome check_generated(const fs::path& folder, const std::string& option = "") {
+/// A generator that writes what is committed, and at once: what tests of the script alone need.
+fs::path writer_of_the_committed() {
+    const fs::path writer = fresh_folder("writer") / "zonal-gen";
+    std::ofstream(writer) << fmt::format(
+        "#!/usr/bin/env bash\n"
+        "# emit --order ORDER --language LANGUAGE --out FOLDER\n"
+        "mkdir -p \"$7\" && cd '{}/generated/'\"$5\" &&\n"
+        "find . -name \"order$(printf %02d \"$3\")*\" -exec cp --parents '{{}}' \"$7\" ';'\n",
+        ZONAL_SOURCE_DIR);
+    fs::permissions(writer, fs::perms::owner_all);
+    return writer;
+}
+
+Outcome check_generated(const fs::path& generator, const fs::path& folder, const std::string& option = "") {
     return run(fmt::format("bash '{}/cmake/check_generated.sh' {} '{}' '{}'", ZONAL_SOURCE_DIR, option,
-                           ZONAL_GEN, folder.string()));
+                           generator.string(), folder.string()));
 }
 
 TEST(CheckGenerated, the_committed_code_is_what_the_generator_writes) {
-    const Outcome result = check_generated(fs::path(ZONAL_SOURCE_DIR) / "generated");
+    const Outcome result = check_generated(ZONAL_GEN, fs::path(ZONAL_SOURCE_DIR) / "generated");
     EXPECT_EQ(result.status, 0) << result.output;
 }
 
 TEST(CheckGenerated, a_file_edited_by_hand_fails_with_the_difference_and_the_accepting_command) {
     const fs::path folder = copy_of_generated("edited");
     std::ofstream(folder / "cpp/zonal/order04.hpp", std::ios::app) << "// by hand\n";
-    const Outcome result = check_generated(folder);
+    const Outcome result = check_generated(writer_of_the_committed(), folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("// by hand"), HasSubstr("--accept")));
 }
@@ -234,7 +247,7 @@ TEST(CheckGenerated, a_file_edited_by_hand_fails_with_the_difference_and_the_acc
 TEST(CheckGenerated, a_missing_file_fails) {
     const fs::path folder = copy_of_generated("missing");
     fs::remove(folder / "cpp/zonal/order05.hpp");
-    const Outcome result = check_generated(folder);
+    const Outcome result = check_generated(writer_of_the_committed(), folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("order05.hpp"), HasSubstr("list of files differs")));
 }
@@ -242,7 +255,7 @@ TEST(CheckGenerated, a_missing_file_fails) {
 TEST(CheckGenerated, an_orphaned_file_fails) {
     const fs::path folder = copy_of_generated("orphaned");
     std::ofstream(folder / "cpp/zonal/order99.hpp") << "// nobody writes this\n";
-    const Outcome result = check_generated(folder);
+    const Outcome result = check_generated(writer_of_the_committed(), folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("order99.hpp"), HasSubstr("list of files differs")));
 }
@@ -250,8 +263,10 @@ TEST(CheckGenerated, an_orphaned_file_fails) {
 TEST(CheckGenerated, accepting_puts_the_generators_output_in_place) {
     const fs::path folder = copy_of_generated("accepted");
     fs::remove(folder / "cpp/zonal/order05.hpp");
-    ASSERT_EQ(check_generated(folder, "--accept").status, 0);
-    EXPECT_EQ(check_generated(folder).status, 0);
+    const fs::path generator = writer_of_the_committed();
+    ASSERT_EQ(check_generated(generator, folder, "--accept").status, 0);
+    EXPECT_TRUE(fs::exists(folder / "cpp/zonal/order05.hpp"));
+    EXPECT_EQ(check_generated(generator, folder).status, 0);
 }
 
 }  // namespace

@@ -38,6 +38,10 @@ constexpr std::size_t kMostInterleaved = 4;
 /// Streaming stages this many channels at most.
 constexpr std::size_t kMostStreamed = 4;
 
+/// Whether the loops are also compiled for the most common layouts. Not for the narrow instruction sets of
+/// x86, which serve old processors: compiling them takes long enough as it is.
+constexpr bool kHasCommonLayouts = !HWY_ARCH_X86 || HWY_TARGET <= HWY_AVX2;
+
 /// More than this much code is better called than repeated.
 constexpr int kLargestInlined = 6;
 
@@ -262,7 +266,7 @@ class Batch {
     /// Copies of the loop for what is most common; constant addresses pay where the kernel is part of the
     /// loop.
     std::size_t turn_rows(Turn& turn, Writer* writer) const {
-        if constexpr (kFirst == 0 && Turn::kUse != Use::channels) {
+        if constexpr (kHasCommonLayouts && kFirst == 0 && Turn::kUse != Use::channels) {
             const bool is_touching =
                 job_.stride == kColumns && (!kHasOwn || job_.rotation_stride == Turn::kRotationLength);
             if constexpr (kMayTouchNine<kColumns>) {
