@@ -43,19 +43,19 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 46 mul 17 add 105 fma 0 other;
 //             per extra vector 18 mul 0 add 38 fma 0 other
-// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double),
+// bound   : rotate_channels relative error 4.1e-07 (float), 7.5e-16 (double),
 //             for det R = +1; excess 2.24
-//           rotate relative error 2.6e-07 (float), 6.6e-16 (double),
+//           rotate relative error 4.7e-07 (float), 8.6e-16 (double),
 //             for det R = +1 or -1; excess 2.23
-//           apply relative error 1.4e-07 (float), 3.8e-16 (double),
+//           apply relative error 2.4e-07 (float), 4.4e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           rotate_accurate relative error 2.4e-07 (float), 5.1e-16 (double),
+//           rotate_accurate relative error 3.4e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           blocks relative error 1.4e-07 (float), 3.5e-16 (double),
+//           blocks relative error 2.6e-07 (float), 4.7e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           rotate_zhf relative error 4.9e-07 (float), 8.8e-16 (double),
+//           rotate_zhf relative error 6.0e-07 (float), 1.2e-15 (double),
 //             for det R = +1 or -1; excess 1.00
-//           stable::rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double),
+//           stable::rotate_zhf relative error 7.1e-07 (float), 1.4e-15 (double),
 //             for det R = +1 or -1; excess 1.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R

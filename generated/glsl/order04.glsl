@@ -46,21 +46,21 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 104 mul 39 add 210 fma 0 other;
 //             per extra vector 48 mul 0 add 119 fma 0 other
-// bound   : rotate_channels relative error 1.1e-06 (float), 2.7e-15 (double),
+// bound   : rotate_channels relative error 1.4e-06 (float), 2.7e-15 (double),
 //             for det R = +1; excess 1.50
-//           rotate relative error 1.1e-06 (float), 2.7e-15 (double),
+//           rotate relative error 1.3e-06 (float), 2.7e-15 (double),
 //             for det R = +1; excess 1.50
-//           rotate_polynomial relative error 3.0e-07 (float), 6.5e-16 (double),
+//           rotate_polynomial relative error 4.5e-07 (float), 8.4e-16 (double),
 //             for det R = +1 or -1; excess 2.23
-//           apply relative error 1.1e-06 (float), 2.8e-15 (double),
+//           apply relative error 1.3e-06 (float), 2.8e-15 (double),
 //             for det R = +1; excess 1.50
-//           rotate_accurate relative error 2.6e-07 (float), 4.5e-16 (double),
+//           rotate_accurate relative error 3.6e-07 (float), 6.7e-16 (double),
 //             for det R = +1 or -1; excess 1.60
-//           blocks relative error 2.1e-07 (float), 4.9e-16 (double),
+//           blocks relative error 2.7e-07 (float), 5.0e-16 (double),
 //             for det R = +1 or -1; excess 1.61
-//           rotate_zhf relative error 1.4e-06 (float), 2.6e-15 (double),
+//           rotate_zhf relative error 1.5e-06 (float), 2.8e-15 (double),
 //             for det R = +1 or -1; excess 1.50
-//           stable::rotate_zhf relative error 1.2e-06 (float), 3.0e-15 (double),
+//           stable::rotate_zhf relative error 1.5e-06 (float), 3.0e-15 (double),
 //             for det R = +1 or -1; excess 1.50
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R

@@ -51,13 +51,13 @@
 //             for det R = +1; excess 2.00
 //           apply relative error 1.1e-06 (float), 2.3e-15 (double),
 //             for det R = +1; excess 2.00
-//           rotate_accurate relative error 2.2e-07 (float), 5.6e-16 (double),
+//           rotate_accurate relative error 3.0e-07 (float), 5.6e-16 (double),
 //             for det R = +1 or -1; excess 2.14
-//           blocks relative error 2.4e-07 (float), 5.6e-16 (double),
+//           blocks relative error 3.0e-07 (float), 5.6e-16 (double),
 //             for det R = +1 or -1; excess 2.14
 //           rotate_zhf relative error 3.9e-06 (float), 7.0e-15 (double),
 //             for det R = +1 or -1; excess 2.00
-//           stable::rotate_zhf relative error 3.1e-06 (float), 4.0e-15 (double),
+//           stable::rotate_zhf relative error 3.1e-06 (float), 4.9e-15 (double),
 //             for det R = +1 or -1; excess 2.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R

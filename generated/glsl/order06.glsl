@@ -56,7 +56,7 @@
 //             for det R = +1 or -1; excess 2.67
 //           blocks relative error 3.4e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 2.67
-//           rotate_zhf relative error 3.4e-06 (float), 5.0e-15 (double),
+//           rotate_zhf relative error 3.4e-06 (float), 5.1e-15 (double),
 //             for det R = +1 or -1; excess 2.50
 //           stable::rotate_zhf relative error 2.2e-06 (float), 4.0e-15 (double),
 //             for det R = +1 or -1; excess 2.50

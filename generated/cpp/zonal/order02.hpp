@@ -12,13 +12,13 @@
 //             per extra vector 3 mul 0 add 6 fma 0 other
 //           blocks 0 mul 0 add 0 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : rotate relative error 1.3e-07 (float), 2.4e-16 (double),
+// bound   : rotate relative error 2.2e-07 (float), 4.1e-16 (double),
 //             for det R = +1 or -1; excess 0.55
-//           apply relative error 1.3e-07 (float), 2.4e-16 (double),
+//           apply relative error 2.2e-07 (float), 4.1e-16 (double),
 //             for det R = +1 or -1; excess 0.55
-//           rotate_accurate relative error 1.3e-07 (float), 2.4e-16 (double),
+//           rotate_accurate relative error 2.2e-07 (float), 4.1e-16 (double),
 //             for det R = +1 or -1; excess 0.55
-//           blocks relative error 1.3e-07 (float), 3.0e-16 (double),
+//           blocks relative error 2.2e-07 (float), 4.0e-16 (double),
 //             for det R = +1 or -1; excess 0.55
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
@@ -79,26 +79,26 @@ inline constexpr int kTakesMirrors = 1;
 
 /// Largest relative error of rotate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 1.3e-07;
-inline constexpr double kRotateBoundDouble = 2.4e-16;
+inline constexpr double kRotateBoundFloat = 2.2e-07;
+inline constexpr double kRotateBoundDouble = 4.1e-16;
 inline constexpr double kRotateExcess = 0.55;
 
 /// Largest relative error of apply for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.3e-07;
-inline constexpr double kApplyBoundDouble = 2.4e-16;
+inline constexpr double kApplyBoundFloat = 2.2e-07;
+inline constexpr double kApplyBoundDouble = 4.1e-16;
 inline constexpr double kApplyExcess = 0.55;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateAccurateBoundFloat = 1.3e-07;
-inline constexpr double kRotateAccurateBoundDouble = 2.4e-16;
+inline constexpr double kRotateAccurateBoundFloat = 2.2e-07;
+inline constexpr double kRotateAccurateBoundDouble = 4.1e-16;
 inline constexpr double kRotateAccurateExcess = 0.55;
 
 /// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kBlocksBoundFloat = 1.3e-07;
-inline constexpr double kBlocksBoundDouble = 3.0e-16;
+inline constexpr double kBlocksBoundFloat = 2.2e-07;
+inline constexpr double kBlocksBoundDouble = 4.0e-16;
 inline constexpr double kBlocksExcess = 0.55;
 
 /// The cheapest exact rotation of one vector.

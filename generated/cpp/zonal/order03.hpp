@@ -43,19 +43,19 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 46 mul 17 add 105 fma 0 other;
 //             per extra vector 18 mul 0 add 38 fma 0 other
-// bound   : rotate_channels relative error 2.8e-07 (float), 6.6e-16 (double),
+// bound   : rotate_channels relative error 4.1e-07 (float), 7.5e-16 (double),
 //             for det R = +1; excess 2.24
-//           rotate relative error 2.6e-07 (float), 6.6e-16 (double),
+//           rotate relative error 4.7e-07 (float), 8.6e-16 (double),
 //             for det R = +1 or -1; excess 2.23
-//           apply relative error 1.4e-07 (float), 3.8e-16 (double),
+//           apply relative error 2.4e-07 (float), 4.4e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           rotate_accurate relative error 2.4e-07 (float), 5.1e-16 (double),
+//           rotate_accurate relative error 3.4e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           blocks relative error 1.4e-07 (float), 3.5e-16 (double),
+//           blocks relative error 2.6e-07 (float), 4.7e-16 (double),
 //             for det R = +1 or -1; excess 1.08
-//           rotate_zhf relative error 4.9e-07 (float), 8.8e-16 (double),
+//           rotate_zhf relative error 6.0e-07 (float), 1.2e-15 (double),
 //             for det R = +1 or -1; excess 1.00
-//           stable::rotate_zhf relative error 5.5e-07 (float), 1.1e-15 (double),
+//           stable::rotate_zhf relative error 7.1e-07 (float), 1.4e-15 (double),
 //             for det R = +1 or -1; excess 1.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
@@ -121,38 +121,38 @@ inline constexpr int kTakesMirrors = 1;
 
 /// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 2.8e-07;
-inline constexpr double kRotateChannelsBoundDouble = 6.6e-16;
+inline constexpr double kRotateChannelsBoundFloat = 4.1e-07;
+inline constexpr double kRotateChannelsBoundDouble = 7.5e-16;
 inline constexpr double kRotateChannelsExcess = 2.24;
 
 /// Largest relative error of rotate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 2.6e-07;
-inline constexpr double kRotateBoundDouble = 6.6e-16;
+inline constexpr double kRotateBoundFloat = 4.7e-07;
+inline constexpr double kRotateBoundDouble = 8.6e-16;
 inline constexpr double kRotateExcess = 2.23;
 
 /// Largest relative error of apply for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.4e-07;
-inline constexpr double kApplyBoundDouble = 3.8e-16;
+inline constexpr double kApplyBoundFloat = 2.4e-07;
+inline constexpr double kApplyBoundDouble = 4.4e-16;
 inline constexpr double kApplyExcess = 1.08;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateAccurateBoundFloat = 2.4e-07;
-inline constexpr double kRotateAccurateBoundDouble = 5.1e-16;
+inline constexpr double kRotateAccurateBoundFloat = 3.4e-07;
+inline constexpr double kRotateAccurateBoundDouble = 6.3e-16;
 inline constexpr double kRotateAccurateExcess = 1.08;
 
 /// Largest relative error of blocks for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kBlocksBoundFloat = 1.4e-07;
-inline constexpr double kBlocksBoundDouble = 3.5e-16;
+inline constexpr double kBlocksBoundFloat = 2.6e-07;
+inline constexpr double kBlocksBoundDouble = 4.7e-16;
 inline constexpr double kBlocksExcess = 1.08;
 
 /// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateZhfBoundFloat = 4.9e-07;
-inline constexpr double kRotateZhfBoundDouble = 8.8e-16;
+inline constexpr double kRotateZhfBoundFloat = 6.0e-07;
+inline constexpr double kRotateZhfBoundDouble = 1.2e-15;
 inline constexpr double kRotateZhfExcess = 1.00;
 
 /// The cheapest exact rotation of three vectors at once.
@@ -1212,8 +1212,8 @@ namespace stable {
 
 /// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateZhfBoundFloat = 5.5e-07;
-inline constexpr double kRotateZhfBoundDouble = 1.1e-15;
+inline constexpr double kRotateZhfBoundFloat = 7.1e-07;
+inline constexpr double kRotateZhfBoundDouble = 1.4e-15;
 inline constexpr double kRotateZhfExcess = 1.00;
 
 /// Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.

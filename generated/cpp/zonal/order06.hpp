@@ -56,7 +56,7 @@
 //             for det R = +1 or -1; excess 2.67
 //           blocks relative error 3.4e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 2.67
-//           rotate_zhf relative error 3.4e-06 (float), 5.0e-15 (double),
+//           rotate_zhf relative error 3.4e-06 (float), 5.1e-15 (double),
 //             for det R = +1 or -1; excess 2.50
 //           stable::rotate_zhf relative error 2.2e-06 (float), 4.0e-15 (double),
 //             for det R = +1 or -1; excess 2.50
@@ -156,7 +156,7 @@ inline constexpr double kBlocksExcess = 2.67;
 /// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 3.4e-06;
-inline constexpr double kRotateZhfBoundDouble = 5.0e-15;
+inline constexpr double kRotateZhfBoundDouble = 5.1e-15;
 inline constexpr double kRotateZhfExcess = 2.50;
 
 /// The cheapest exact rotation of three vectors at once.

@@ -62,7 +62,7 @@
 //             for det R = +1 or -1; excess 4.25
 //           rotate_zhf relative error 7.1e-06 (float), 1.4e-14 (double),
 //             for det R = +1 or -1; excess 4.00
-//           stable::rotate_zhf relative error 4.5e-06 (float), 5.8e-15 (double),
+//           stable::rotate_zhf relative error 4.5e-06 (float), 6.0e-15 (double),
 //             for det R = +1 or -1; excess 4.00
 //           of |f|, with fused instructions; the excess times |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
@@ -22902,7 +22902,7 @@ namespace stable {
 /// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 4.5e-06;
-inline constexpr double kRotateZhfBoundDouble = 5.8e-15;
+inline constexpr double kRotateZhfBoundDouble = 6.0e-15;
 inline constexpr double kRotateZhfExcess = 4.00;
 
 /// Weights of the lobes whose sum is the signal: z = A^T f with A = Y^-1, band by band.

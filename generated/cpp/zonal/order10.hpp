@@ -61,7 +61,7 @@
 //             for det R = +1 or -1; excess 4.78
 //           blocks relative error 4.1e-07 (float), 1.2e-15 (double),
 //             for det R = +1 or -1; excess 4.78
-//           rotate_zhf relative error 1.1e-05 (float), 1.5e-14 (double),
+//           rotate_zhf relative error 1.1e-05 (float), 1.7e-14 (double),
 //             for det R = +1 or -1; excess 4.50
 //           stable::rotate_zhf relative error 7.2e-06 (float), 8.1e-15 (double),
 //             for det R = +1 or -1; excess 4.50
@@ -161,7 +161,7 @@ inline constexpr double kBlocksExcess = 4.78;
 /// Largest relative error of rotate_zhf for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
 inline constexpr double kRotateZhfBoundFloat = 1.1e-05;
-inline constexpr double kRotateZhfBoundDouble = 1.5e-14;
+inline constexpr double kRotateZhfBoundDouble = 1.7e-14;
 inline constexpr double kRotateZhfExcess = 4.50;
 
 /// The cheapest exact rotation of three vectors at once.
