@@ -19,6 +19,7 @@
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "order_kernels.hpp"
 #include "output_file.hpp"
@@ -263,7 +264,13 @@ void run(const Options& options) {
         for (int n = kLargestOrder; n >= kSmallestOrder; --n) orders.push_back(n);
     if (!options.orders.empty() || !options.kernels.empty() || options.only_turns)
         measured = kept_bounds(options, orders);
-    const auto known = measured;
+    const auto known = measured;  // read by the threads that measure
+    for (const int n : orders)
+        if (options.only_turns && !known.contains(n))
+            throw std::runtime_error(fmt::format(
+                "{}: found no bounds of order {}, wanted what --only-turns raises; measure it first, "
+                "without that option",
+                options.out, n));
     std::mutex mutex;
     tbb::parallel_for_each(orders, [&](int n) {
         Options of_order = options;
