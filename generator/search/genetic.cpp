@@ -9,11 +9,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "search/starting_sets.hpp"
+
 namespace zonal::search {
 namespace {
 
 /// The range of lambda that is worth trying: low finds zeros, high finds good conditions.
 constexpr double kSmallestNormWeight = 0.2, kLargestNormWeight = 4;
+
+/// From here on aligned starts find more, by trial; the sparsest sets of fewer bands have another order.
+bool has_many_bands(const Problem& problem) { return problem.bands.size() >= 8; }
 
 }  // namespace
 
@@ -46,10 +51,10 @@ Population::Population(const Problem& problem, const CandidateGrid& grid, const 
 
 void Population::restart() {
     individuals_.clear();
-    for (int i = 0; i < settings_.population; ++i)
-        individuals_.push_back(judge(settings_.is_plain ? random_lobes() : regular_lobes()));
+    for (int i = 0; i < settings_.population; ++i) individuals_.push_back(judge(start()));
     sort();
     stalled_ = 0;
+    are_founders_ = !settings_.is_plain && has_many_bands(*problem_);
 }
 
 Individual Population::judge(LobeSet lobes) {
@@ -64,28 +69,11 @@ LobeSet Population::random_lobes() {
     return lobes;
 }
 
-/// Random lobes that are regular in the highest band: each keeps part of its length when what the others span
-/// is taken away. Sets drawn blindly from a pool with much structure are nearly all singular.
-LobeSet Population::regular_lobes() {
-    const int l = problem_->highest_band(), size = 2 * l + 1;
-    constexpr double kSmallestPart = 0.15;
-    exact::Matrix<double> basis(size, size);
-    LobeSet lobes;
-    const int trials = 100 * size;
-    for (int trial = 0; trial < trials && static_cast<int>(lobes.size()) < size; ++trial) {
-        const Lobe lobe = draw();
-        const int known = static_cast<int>(lobes.size());
-        exact::Vector<double> row(size);
-        grid_->evaluate(l, lobe, row.data());
-        const double length = row.norm();
-        for (int pass = 0; pass < 2; ++pass)
-            row -= basis.leftCols(known) * (basis.leftCols(known).transpose() * row);
-        if (row.norm() < kSmallestPart * length) continue;
-        basis.col(known) = row.normalized();
-        lobes.push_back(lobe);
-    }
-    while (static_cast<int>(lobes.size()) < problem_->lobe_count) lobes.push_back(draw());
-    return lobes;
+/// To begin with, or in the place of singular lobes.
+LobeSet Population::start() {
+    if (settings_.is_plain) return random_lobes();
+    return has_many_bands(*problem_) ? draw_aligned(*problem_, *grid_, *pool_, random_)
+                                     : draw_regular(*problem_, *grid_, *pool_, random_);
 }
 
 /// Annealed by swaps; from other lobes where these are singular, which crossing two sets may make them.
@@ -95,7 +83,7 @@ LobeSet Population::improve(const LobeSet& lobes) {
     TrackedInverses state(*problem_, *grid_, objective_, norm_weight);
     constexpr int kTrials = 100;
     bool is_regular = state.reset(lobes);
-    for (int trial = 0; !is_regular && trial < kTrials; ++trial) is_regular = state.reset(regular_lobes());
+    for (int trial = 0; !is_regular && trial < kTrials; ++trial) is_regular = state.reset(start());
     if (!is_regular) return lobes;
     evaluations_ += settings_.local_step.moves;
     return anneal_by_swaps(state, *grid_, *pool_, settings_.local_step, random_);
@@ -105,12 +93,13 @@ void Population::evolve(const std::function<bool()>& is_stopped) {
     const double best_before = best().cost;
     std::vector<Individual> next(individuals_.begin(), individuals_.begin() + settings_.elite);
     while (static_cast<int>(next.size()) < settings_.population && !is_stopped()) {
-        LobeSet child = breed();
+        LobeSet child = are_founders_ ? individuals_[next.size() - settings_.elite].lobes : breed();
         next.push_back(judge(settings_.is_plain ? std::move(child) : improve(child)));
     }
     // What a stopped generation did not replace stays.
     for (std::size_t i = next.size(); i < individuals_.size(); ++i) next.push_back(individuals_[i]);
     individuals_ = std::move(next);
+    are_founders_ = false;
     sort();
     stalled_ = best().cost < best_before ? 0 : stalled_ + 1;
 }

@@ -62,7 +62,7 @@ class Population {
   private:
     Individual judge(LobeSet lobes);
     LobeSet random_lobes();
-    LobeSet regular_lobes();
+    LobeSet start();
     LobeSet improve(const LobeSet& lobes);
     Lobe draw() { return settings_.is_plain ? grid_->random(random_) : pool_->draw(random_); }
     LobeSet breed();
@@ -81,6 +81,7 @@ class Population {
     Genetic settings_;
     Random random_;
     std::vector<Individual> individuals_;  // best first
+    bool are_founders_ = false;            // not annealed yet, which the first generation does
     int stalled_ = 0;
     std::int64_t evaluations_ = 0;
 };

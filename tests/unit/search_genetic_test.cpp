@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "search/genetic.hpp"
 
 namespace zonal::search {
@@ -53,6 +55,19 @@ TEST(GeneticWithLocalSteps, starts_from_regular_sets_though_the_pool_is_small) {
     EXPECT_GE(population.best_of_each_cost(settings.population).size(), 3);
 }
 
+TEST(GeneticWithLocalSteps, of_many_bands_starts_aligned_and_beats_the_paper_at_once) {
+    const Problem problem = Problem::shared(9);
+    const Candidates from(problem);
+    Population population(problem, from.grid, from.pool, {}, Genetic::with_local_steps(problem),
+                          Random(1, 0));
+    for (const Individual& individual : population.best_of_each_cost(6)) {
+        const auto on_equator = std::ranges::count(individual.lobes, from.grid.equator(), &Lobe::theta);
+        EXPECT_EQ(on_equator, 8);  // two for each of the bands 1, 3, 5, 7
+    }
+    population.evolve();
+    EXPECT_LT(population.best().score.nonzeros, 570);  // Table II
+}
+
 TEST(GeneticWithLocalSteps, stopped_generation_keeps_the_population) {
     const Problem problem = Problem::one_band(4);
     const Candidates from(problem);
@@ -63,6 +78,18 @@ TEST(GeneticWithLocalSteps, stopped_generation_keeps_the_population) {
     population.evolve([] { return true; });
     EXPECT_EQ(population.best().cost, best);
     EXPECT_EQ(population.evaluations(), evaluations);
+}
+
+/// The first generation anneals founders and must not lose what a search resumes from.
+TEST(Population, of_founders_keeps_an_adopted_set) {
+    const Problem problem = Problem::shared(9);
+    const Candidates from(problem);
+    Population source(problem, from.grid, from.pool, {}, Genetic::with_local_steps(problem), Random(1, 0));
+    for (int generation = 0; generation < 2; ++generation) source.evolve();
+    Population target(problem, from.grid, from.pool, {}, Genetic::with_local_steps(problem), Random(2, 0));
+    target.adopt(source.best().lobes);
+    target.evolve();
+    EXPECT_LE(target.best().cost, source.best().cost);
 }
 
 TEST(Population, adopts_a_better_set_as_its_best) {
