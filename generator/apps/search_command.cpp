@@ -56,6 +56,7 @@ struct SearchOptions {
     std::string archive;
     bool is_plain = false;
     bool stays_on_grid = false;
+    bool is_aligned = false;
     bool walks = false;
     int islands = 4;
     std::vector<int> zero_bands;
@@ -101,6 +102,7 @@ search::SearchSettings settings_of(const SearchOptions& options, const search::P
     settings.objective = options.objective;
     search::Genetic& genetic = settings.genetic;
     genetic = options.is_plain ? search::Genetic::of_paper() : search::Genetic::with_local_steps(problem);
+    if (options.is_aligned) genetic.starts_aligned = true;
     if (options.population > 0) genetic.population = options.population;
     if (options.stall > 0) genetic.stall_generations = options.stall;
     if (options.moves > 0) genetic.local_step.moves = options.moves;
@@ -133,6 +135,7 @@ std::string canonical_command(const SearchOptions& options, const std::optional<
     if (options.mirrors > 0) command += fmt::format(" --mirrors {}", options.mirrors);
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
+    if (options.is_aligned) command += " --aligned";
     if (options.walks) command += " --walk";
     if (start) command = start->command + " && " + command + " --resume " + path_in(start->command, table);
     const auto add_list = [&](const char* name, const std::vector<int>& values) {
@@ -273,6 +276,9 @@ void add_search_command(CLI::App& app) {
     command->add_flag("--plain", o.is_plain,
                       "the paper's genetic algorithm, with no local steps, on the grid");
     command->add_flag("--on-grid", o.stays_on_grid, "no refinement off the grid of Legendre zeros");
+    CLI::Option* aligned = command->add_flag(
+        "--aligned", o.is_aligned,
+        "start from lobes on the equator and on y = 0 in turns, as from order 12 on it always does");
     command
         ->add_option("--zero-bands", o.zero_bands,
                      "candidates lie at the Legendre zeros of these bands (default: of all that share the "
@@ -293,10 +299,11 @@ void add_search_command(CLI::App& app) {
                 "instructions of their emitted product")
             ->check(CLI::Range(1, search::kMostMirrors));
     mirrors->needs(band);
+    aligned->excludes(command->get_option("--plain"))->excludes(mirrors);
     CLI::Option* walk = command->add_flag(
         "--walk", o.walks,
         "seek lobes near those of --resume, anywhere on the sphere: give up some zeros, find others");
-    walk->needs(resume);
+    walk->needs(resume)->excludes(aligned);
     command->add_option("--islands", o.islands, "populations that breed apart, or walkers")
         ->capture_default_str()
         ->check(CLI::Range(1, 1024));

@@ -17,8 +17,9 @@ namespace {
 /// The range of lambda that is worth trying: low finds zeros, high finds good conditions.
 constexpr double kSmallestNormWeight = 0.2, kLargestNormWeight = 4;
 
-/// From here on aligned starts find more, by trial; the sparsest sets of fewer bands have another order.
-bool has_many_bands(const Problem& problem) { return problem.bands.size() >= 8; }
+/// From here on aligned starts always find more, by trial. The sparsest sets of fewer than seven bands have
+/// another order.
+constexpr int kManyBands = 11;
 
 }  // namespace
 
@@ -33,6 +34,7 @@ Genetic Genetic::with_local_steps(const Problem& problem) {
     settings.population = 6;
     settings.stall_generations = 10;
     settings.is_plain = false;
+    settings.starts_aligned = problem.bands.size() >= kManyBands;
     settings.local_step.moves = 400 * problem.lobe_count * problem.lobe_count;
     return settings;
 }
@@ -54,7 +56,7 @@ void Population::restart() {
     for (int i = 0; i < settings_.population; ++i) individuals_.push_back(judge(start()));
     sort();
     stalled_ = 0;
-    are_founders_ = !settings_.is_plain && has_many_bands(*problem_);
+    are_founders_ = settings_.starts_aligned;
 }
 
 Individual Population::judge(LobeSet lobes) {
@@ -72,8 +74,8 @@ LobeSet Population::random_lobes() {
 /// To begin with, or in the place of singular lobes.
 LobeSet Population::start() {
     if (settings_.is_plain) return random_lobes();
-    return has_many_bands(*problem_) ? draw_aligned(*problem_, *grid_, *pool_, random_)
-                                     : draw_regular(*problem_, *grid_, *pool_, random_);
+    return settings_.starts_aligned ? draw_aligned(*problem_, *grid_, *pool_, random_)
+                                    : draw_regular(*problem_, *grid_, *pool_, random_);
 }
 
 /// Annealed by swaps; from other lobes where these are singular, which crossing two sets may make them.

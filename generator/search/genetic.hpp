@@ -15,8 +15,9 @@ struct Genetic {
     double mutation_rate = 0;         ///< of an angle; 0 stands for 1/v, where v is the number of angles
     int elite = 2;
     int stall_generations = 50;
-    bool is_plain = true;  ///< genes are angles and there is no local step
-    Annealing local_step;  ///< of every child; its norm weight is drawn anew for each
+    bool is_plain = true;         ///< genes are angles and there is no local step
+    bool starts_aligned = false;  ///< from `draw_aligned` sets, annealed first; not with plain genes
+    Annealing local_step;         ///< of every child; its norm weight is drawn anew for each
 
     /// As section 5 of the paper has it.
     static Genetic of_paper();

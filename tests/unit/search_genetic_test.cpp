@@ -55,17 +55,23 @@ TEST(GeneticWithLocalSteps, starts_from_regular_sets_though_the_pool_is_small) {
     EXPECT_GE(population.best_of_each_cost(settings.population).size(), 3);
 }
 
-TEST(GeneticWithLocalSteps, of_many_bands_starts_aligned_and_beats_the_paper_at_once) {
+TEST(GeneticWithLocalSteps, aligned_beats_the_paper_at_once) {
     const Problem problem = Problem::shared(9);
     const Candidates from(problem);
-    Population population(problem, from.grid, from.pool, {}, Genetic::with_local_steps(problem),
-                          Random(1, 0));
+    Genetic settings = Genetic::with_local_steps(problem);
+    settings.starts_aligned = true;
+    Population population(problem, from.grid, from.pool, {}, settings, Random(1, 0));
     for (const Individual& individual : population.best_of_each_cost(6)) {
         const auto on_equator = std::ranges::count(individual.lobes, from.grid.equator(), &Lobe::theta);
         EXPECT_EQ(on_equator, 8);  // two for each of the bands 1, 3, 5, 7
     }
     population.evolve();
     EXPECT_LT(population.best().score.nonzeros, 570);  // Table II
+}
+
+TEST(GeneticWithLocalSteps, of_many_bands_starts_aligned) {
+    EXPECT_FALSE(Genetic::with_local_steps(Problem::shared(11)).starts_aligned);
+    EXPECT_TRUE(Genetic::with_local_steps(Problem::shared(12)).starts_aligned);
 }
 
 TEST(GeneticWithLocalSteps, stopped_generation_keeps_the_population) {
@@ -84,9 +90,11 @@ TEST(GeneticWithLocalSteps, stopped_generation_keeps_the_population) {
 TEST(Population, of_founders_keeps_an_adopted_set) {
     const Problem problem = Problem::shared(9);
     const Candidates from(problem);
-    Population source(problem, from.grid, from.pool, {}, Genetic::with_local_steps(problem), Random(1, 0));
+    Genetic settings = Genetic::with_local_steps(problem);
+    settings.starts_aligned = true;
+    Population source(problem, from.grid, from.pool, {}, settings, Random(1, 0));
     for (int generation = 0; generation < 2; ++generation) source.evolve();
-    Population target(problem, from.grid, from.pool, {}, Genetic::with_local_steps(problem), Random(2, 0));
+    Population target(problem, from.grid, from.pool, {}, settings, Random(2, 0));
     target.adopt(source.best().lobes);
     target.evolve();
     EXPECT_LE(target.best().cost, source.best().cost);
