@@ -63,11 +63,14 @@ LobeSet draw_regular(const Problem& problem, const CandidateGrid& grid, const Po
 
 namespace {
 
+/// Neither on the equator nor at the pole, unless the pool holds hardly any other.
 Lobe draw_off_equator(const CandidateGrid& grid, const Pool& pool, Random& random) {
-    for (;;) {
-        const Lobe lobe = pool.draw(random);
-        if (lobe.theta != grid.equator() && lobe.theta != grid.pole()) return lobe;
+    Lobe lobe;
+    for (int trial = 0; trial < 1000; ++trial) {
+        lobe = pool.draw(random);
+        if (lobe.theta != grid.equator() && lobe.theta != grid.pole()) break;
     }
+    return lobe;
 }
 
 /// One try; none where some lobe is not found.
@@ -77,7 +80,7 @@ std::optional<LobeSet> try_aligned(const Problem& problem, const CandidateGrid& 
     const Lobe pole = grid.canonical(grid.pole(), 0);
     LobeSet lobes = {pole};
     spans.extend(pole, 0);
-    // The first of `trials` lobes that has enough to add, the less the longer it takes.
+    // The first lobe that has enough to add, the less the longer it takes to find one.
     const auto add = [&](auto draw) {
         constexpr int kTrials = 400;
         constexpr double kLargestPart = 0.2, kSmallestPart = 0.02;
