@@ -1,5 +1,6 @@
 #include "search/starting_sets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -63,14 +64,16 @@ LobeSet draw_regular(const Problem& problem, const CandidateGrid& grid, const Po
 
 namespace {
 
-/// Neither on the equator nor at the pole, unless the pool holds hardly any other.
+bool is_off_equator(const CandidateGrid& grid, Lobe lobe) {
+    return lobe.theta != grid.equator() && lobe.theta != grid.pole();
+}
+
+/// Precondition: the pool holds such a lobe.
 Lobe draw_off_equator(const CandidateGrid& grid, const Pool& pool, Random& random) {
-    Lobe lobe;
-    for (int trial = 0; trial < 1000; ++trial) {
-        lobe = pool.draw(random);
-        if (lobe.theta != grid.equator() && lobe.theta != grid.pole()) break;
+    for (;;) {
+        const Lobe lobe = pool.draw(random);
+        if (is_off_equator(grid, lobe)) return lobe;
     }
-    return lobe;
 }
 
 /// One try; none where some lobe is not found.
@@ -113,7 +116,9 @@ std::optional<LobeSet> try_aligned(const Problem& problem, const CandidateGrid& 
 
 LobeSet draw_aligned(const Problem& problem, const CandidateGrid& grid, const Pool& pool, Random& random) {
     constexpr int kTrials = 500;  // one in three succeeds at N = 9, one in ten at N = 20
-    for (int trial = 0; trial < kTrials; ++trial)
+    const auto is_useful = [&](const Lobe lobe) { return is_off_equator(grid, lobe); };
+    const bool has_useful = std::ranges::any_of(pool.lobes(), is_useful);
+    for (int trial = 0; has_useful && trial < kTrials; ++trial)
         if (const auto lobes = try_aligned(problem, grid, pool, random)) return *lobes;
     return draw_regular(problem, grid, pool, random);
 }

@@ -68,5 +68,14 @@ TEST(StartingSetOfASmallPool, is_complete_all_the_same) {
     EXPECT_EQ(draw_aligned(problem, from.grid, from.pool, random).size(), problem.lobe_count);
 }
 
+/// Band 1 has Legendre zeros at the pole and on the equator alone.
+TEST(StartingSetOfASmallPool, is_complete_though_all_lobes_lie_on_the_equator) {
+    const Problem problem = Problem::shared(9);
+    CandidateGrid grid(problem.highest_band(), {1});
+    const Pool pool(grid, usual_rings(problem.bands));
+    Random random(1, 0);
+    EXPECT_EQ(draw_aligned(problem, grid, pool, random).size(), problem.lobe_count);
+}
+
 }  // namespace
 }  // namespace zonal::search
