@@ -116,9 +116,9 @@ std::optional<LobeSet> try_aligned(const Problem& problem, const CandidateGrid& 
 
 LobeSet draw_aligned(const Problem& problem, const CandidateGrid& grid, const Pool& pool, Random& random) {
     constexpr int kTrials = 500;  // one in three succeeds at N = 9, one in ten at N = 20
-    const auto is_useful = [&](const Lobe lobe) { return is_off_equator(grid, lobe); };
-    const bool has_useful = std::ranges::any_of(pool.lobes(), is_useful);
-    for (int trial = 0; has_useful && trial < kTrials; ++trial)
+    const bool has_any_off_equator =
+        std::ranges::any_of(pool.lobes(), [&](const Lobe lobe) { return is_off_equator(grid, lobe); });
+    for (int trial = 0; has_any_off_equator && trial < kTrials; ++trial)
         if (const auto lobes = try_aligned(problem, grid, pool, random)) return *lobes;
     return draw_regular(problem, grid, pool, random);
 }

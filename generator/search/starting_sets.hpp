@@ -10,7 +10,7 @@ namespace zonal::search {
 /// is too small for that, blindly drawn lobes complete the set.
 LobeSet draw_regular(const Problem& problem, const CandidateGrid& grid, const Pool& pool, Random& random);
 
-/// Random lobes in the order that the sparsest known sets of many bands have, regular in every band: the
+/// Random lobes in the order of the sparsest sets known of 12 bands and more, regular in every band: the
 /// pole; for every odd l two more on the equator; for every even l one more on the great circle y = 0 and one
 /// anywhere off the equator. On the equator no function that is odd in z is seen, on the circle none of the
 /// sin(m phi), so Â falls apart in every band at once, as far as lobes can be shared: band l has l+1

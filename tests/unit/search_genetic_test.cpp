@@ -15,6 +15,12 @@ struct Candidates {
     Pool pool;
 };
 
+Genetic aligned(const Problem& problem) {
+    Genetic settings = Genetic::with_local_steps(problem);
+    settings.starts_aligned = true;
+    return settings;
+}
+
 TEST(PlainGenetic, finds_most_zeros_of_band_2_as_in_the_paper) {
     const Problem problem = Problem::one_band(2);
     const Candidates from(problem);
@@ -58,9 +64,7 @@ TEST(GeneticWithLocalSteps, starts_from_regular_sets_though_the_pool_is_small) {
 TEST(GeneticWithLocalSteps, aligned_beats_the_paper_at_once) {
     const Problem problem = Problem::shared(9);
     const Candidates from(problem);
-    Genetic settings = Genetic::with_local_steps(problem);
-    settings.starts_aligned = true;
-    Population population(problem, from.grid, from.pool, {}, settings, Random(1, 0));
+    Population population(problem, from.grid, from.pool, {}, aligned(problem), Random(1, 0));
     for (const Individual& individual : population.best_of_each_cost(6)) {
         const auto on_equator = std::ranges::count(individual.lobes, from.grid.equator(), &Lobe::theta);
         EXPECT_EQ(on_equator, 8);  // two for each of the bands 1, 3, 5, 7
@@ -90,11 +94,9 @@ TEST(GeneticWithLocalSteps, stopped_generation_keeps_the_population) {
 TEST(Population, of_founders_keeps_an_adopted_set) {
     const Problem problem = Problem::shared(9);
     const Candidates from(problem);
-    Genetic settings = Genetic::with_local_steps(problem);
-    settings.starts_aligned = true;
-    Population source(problem, from.grid, from.pool, {}, settings, Random(1, 0));
+    Population source(problem, from.grid, from.pool, {}, aligned(problem), Random(1, 0));
     for (int generation = 0; generation < 2; ++generation) source.evolve();
-    Population target(problem, from.grid, from.pool, {}, settings, Random(2, 0));
+    Population target(problem, from.grid, from.pool, {}, aligned(problem), Random(2, 0));
     target.adopt(source.best().lobes);
     target.evolve();
     EXPECT_LE(target.best().cost, source.best().cost);
