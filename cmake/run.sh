@@ -16,13 +16,17 @@ cd "$root"
 bash cmake/install_packages.sh
 out=$root/build/run
 mkdir -p "$out"
-build() { # FOLDER TARGETS [options of cmake]: by the release preset; quiet unless it fails
-  local folder=$1 targets=$2 log=$out/$(basename "$1").log
+log=$out/build.log
+quietly() { "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }; }
+build() { # FOLDER TARGETS [options of cmake]: by the release preset; a terminal shows ninja's progress, a pipe nothing
+  local folder=$1 targets=$2
   shift 2
   echo "building: $targets"
-  if ! { cmake --preset release -B "$folder" "$@" && cmake --build "$folder" --target $targets; } >"$log" 2>&1; then
-    cat "$log" >&2
-    exit 1
+  quietly cmake --preset release -B "$folder" "$@"
+  if [ -t 1 ]; then
+    cmake --build "$folder" --target $targets
+  else
+    quietly cmake --build "$folder" --target $targets
   fi
 }
 
@@ -33,8 +37,8 @@ table=$out/tables/order$(printf %02d "$order" 2>/dev/null || echo "$order").json
 "$gen" emit --order "$order" --language cpp --table "$table" --out "$out/generated/cpp"
 "$gen" stats --order "$order" --table "$table" --json >"$out/stats.json"
 
-build "$out/kernels" "zonal-rotate-map zonal-report" -DZONAL_BUILD_GENERATOR=OFF -DZONAL_ORDERS="$order" \
-  -DZONAL_GENERATED_DIR="$out/generated/cpp"
+build "$out/kernels" "zonal-rotate-map zonal-report" -DZONAL_BUILD_GENERATOR=OFF -DZONAL_BUILD_GPU_TESTS=OFF \
+  -DZONAL_BATCH_TARGETS=baseline -DZONAL_ORDERS="$order" -DZONAL_GENERATED_DIR="$out/generated/cpp"
 "$out/kernels/bin/zonal-rotate-map" --order "$order" --map "$map" --out "$out/images" "$@"
 "$out/kernels/bin/zonal-report" --stats "$out/stats.json"
 
