@@ -70,7 +70,7 @@ Kernel build_blocks(int order) {
     for (int l = 0; l < order; ++l)
         for (int k = 0; k < static_cast<int>(all[l].size()); ++k)
             kernel.store(index++, all[l][k], l, std::abs(k % (2 * l + 1) - l));
-    return graph::optimize(kernel);
+    return graph::optimize(std::move(kernel));
 }
 
 bool is_same_work(const Kernel& a, const Kernel& b) {
@@ -83,12 +83,12 @@ bool is_same_work(const Kernel& a, const Kernel& b) {
 OrderPlans plan_order(int order) {
     constexpr int kMany = 64;
     // Up to order 3 the cheapest kernel takes mirrors at no cost.
-    return {cheapest_plan(order, {1, order <= 3}), cheapest_plan(order, {3, false}),
-            cheapest_plan(order, {kMany, false})};
+    Planner planner(order);
+    return {planner.cheapest({1, order <= 3}), planner.cheapest({3, false}),
+            planner.cheapest({kMany, false})};
 }
 
-std::vector<Kernel> build_rotations(int order) {
-    const OrderPlans plans = plan_order(order);
+std::vector<Kernel> build_rotations(int order, const OrderPlans& plans) {
     Kernel one = planned("rotate", "The cheapest exact rotation of one vector.", order, plans.one);
     const Kernel channels = planned(
         "rotate_channels", "The cheapest exact rotation of three vectors at once.", order, plans.channels);
