@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "exact/spherical_harmonics.hpp"
 #include "lobes/ring.hpp"
 
