@@ -22,4 +22,4 @@ awk -F '\t' 'NF >= 5 { last[$4] = $0 }
         if (!(key in seen)) { seen[key] = 1; print (field[2] - field[1]) / 1000, output } } }' "$jobs" |
   longest "build jobs"
 [ -f "$tests" ] || { echo "no test was run in $build"; exit 0; }
-awk '$0 == "---" { exit } { print $3, $1 }' "$tests" | longest "tests"
+awk '$0 == "---" { exit } { name = $1; for (i = 2; i < NF - 1; ++i) name = name " " $i; print $NF, name }' "$tests" | longest "tests"

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "apps/emit_jobs.hpp"
@@ -29,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct EmitOptions {
-    int order = 0;
+    std::optional<int> order;
     std::string orders;
     std::string language;
     std::string languages;
@@ -162,9 +163,9 @@ emit::Unit make_unit(const OrderKernels& order) {
 EmitJobs jobs_of(const EmitOptions& options) {
     if (!options.language.empty()) find_language("--language", options.language);
     std::set<int> orders;
-    if (options.order != 0) {
-        check_order(options.order);
-        orders = {options.order};
+    if (options.order) {
+        check_order(*options.order);
+        orders = {*options.order};
     } else if (!options.orders.empty()) {
         orders = orders_of("--orders", options.orders);
     }
@@ -222,7 +223,7 @@ void add_emit_command(CLI::App& app) {
     command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");
     command->add_flag("--binary", options->is_binary, "spirv: write assembled modules (.spv) as well");
     command->callback([options] {
-        if (!options->language.empty() && options->order == 0 && options->orders.empty())
+        if (!options->language.empty() && !options->order && options->orders.empty())
             throw UserError("--language: found no order, wanted --order N or --orders 3-6,8");
         run(*options);
     });

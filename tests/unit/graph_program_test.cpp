@@ -149,7 +149,8 @@ class Symbols {
             else if (node.op == Op::input)
                 inputs_[{node.array, node.index}] = id;
             else
-                ids_[{node.op, node.negated_product, node.negated_addend, node.operands}] = id;
+                ids_[{node.op, node.negated_product, node.negated_addend,
+                      std::vector<Id>(node.operands.begin(), node.operands.end())}] = id;
         }
     }
     Id constant(const Number& value) const { return constants_.at(value); }

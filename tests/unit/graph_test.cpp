@@ -91,7 +91,7 @@ TEST(Spills, values_that_wait_beyond_the_registers_go_to_memory_and_back) {
 TEST(Graph, what_is_not_linear_in_the_signal_cannot_be_built) {
     Graph graph;
     const Id r = graph.input(Kind::rotation, 0, 0), f = graph.input(Kind::signal, 1, 0);
-    EXPECT_EQ(graph[graph.multiply(f, r)].operands.front(), r);  // the scalar stands on the left
+    EXPECT_EQ(graph[graph.multiply(f, r)].operands[0], r);  // the scalar stands on the left
     EXPECT_THROW(graph.multiply(f, f), std::logic_error);
     EXPECT_THROW(graph.add(f, r), std::logic_error);
     EXPECT_THROW(graph.subtract(r, f), std::logic_error);
