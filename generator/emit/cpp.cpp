@@ -58,6 +58,12 @@ const char* const kPrelude = R"(
     return __builtin_copysign(size, sign);
 }
 
+// Whether T computes in single precision: float, and what has float as its value_type.
+template <class T, class = void>
+struct is_single : std::is_same<T, float> {};
+template <class T>
+struct is_single<T, std::void_t<typename T::value_type>> : is_single<typename T::value_type> {};
+
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
 struct scalar_of {
@@ -109,6 +115,14 @@ std::string pascal_case(const std::string& name) {
     return result;
 }
 
+/// Whether an angle is chosen where the rotation leaves it free: the result is right all the same, its derivative is
+/// not.
+bool has_pole(const Kernel& kernel) {
+    for (Id id = 0; id < kernel.graph.size(); ++id)
+        if (kernel.graph[id].op == Op::copy_sign) return true;
+    return false;
+}
+
 std::string kernel_comment(const Kernel& kernel) {
     const graph::Array& last = kernel.inputs.back();
     std::vector<std::string> lines = purpose_lines(kernel);
@@ -124,6 +138,10 @@ std::string kernel_comment(const Kernel& kernel) {
         lines.push_back(fmt::format("Error: at most (k{0}Bound... + k{0}Excess |R R^T - I|_F) |{1}|.",
                                     pascal_case(kernel.name),
                                     last.kind == Kind::signal ? last.name : "signal"));
+    if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
+        lines.push_back(has_pole(kernel)
+                            ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
+                            : "May be differentiated: T and V may be numbers that carry derivatives.");
     append(lines, source_lines(kernel));
     std::string text;
     for (const std::string& line : lines) text += "/// " + line + "\n";
@@ -148,8 +166,10 @@ class CppSyntax : public Syntax {
     std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
         return fmt::format("fma({}, {}, {})", a, b, c);
     }
-    std::string copy_sign(const std::string& size, const std::string& sign) const override {
-        return fmt::format("copysign({}, {})", size, sign);
+    std::string copy_sign(const graph::Number& size, const graph::Number& size_in_float,
+                          const std::string& sign) const override {
+        return fmt::format("copysign(T(is_single<T>::value ? {} : {}), {})", literal(size_in_float),
+                           literal(size), sign);
     }
 };
 

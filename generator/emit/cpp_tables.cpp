@@ -98,7 +98,7 @@ std::string expression(const Loop& loop) {
         case Op::square_root:
             return fmt::format("sqrt({})", operand(0));
         case Op::copy_sign:
-            return fmt::format("copysign({}, {})", operand(0), operand(1));
+            return fmt::format("copysign(is_single<T>::value ? {} : {}, {})", operand(1), operand(0), operand(2));
     }
     throw std::logic_error("an operation without an expression");
 }
