@@ -40,12 +40,12 @@ if [ $has_generator = ON ]; then
       consumer bad_order "-DCONSUMER_ORDERS=3;$order"
   done
   # The program must read the tables that came with it, and those it is told to.
-  mkdir "$work/truncated"
-  head -c 100 "$prefix/share/zonal/tables/order04.json" >"$work/truncated/order04.json"
+  mkdir -p "$work/truncated/shared"
+  head -c 100 "$prefix/share/zonal/tables/shared/order04.json" >"$work/truncated/shared/order04.json"
   emit=("$prefix/bin/zonal-gen" emit --order 4 --language cpp --out "$work/emitted")
-  fails_with "$work/truncated/order04.json: JSON text" env ZONAL_TABLES_DIR="$work/truncated" "${emit[@]}"
+  fails_with "$work/truncated/shared/order04.json: JSON text" env ZONAL_TABLES_DIR="$work/truncated" "${emit[@]}"
   quietly "${emit[@]}"
-  cp "$work/truncated/order04.json" "$prefix/share/zonal/tables/"
-  fails_with "$prefix/share/zonal/tables/order04.json: JSON text" "${emit[@]}"
+  cp "$work/truncated/shared/order04.json" "$prefix/share/zonal/tables/shared/"
+  fails_with "$prefix/share/zonal/tables/shared/order04.json: JSON text" "${emit[@]}"
 fi
 echo "the installed package works (zonal-gen: $has_generator)"

@@ -33,4 +33,4 @@ configure_package_config_file(cmake/zonal-config.cmake.in "${PROJECT_BINARY_DIR}
   INSTALL_DESTINATION "${package_folder}" PATH_VARS installed_tables)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/zonal-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/zonal-config.cmake" "${PROJECT_BINARY_DIR}/zonal-config-version.cmake"
-  cmake/zonal_add_kernels.cmake DESTINATION "${package_folder}")
+  cmake/zonal_add_kernels.cmake cmake/zonal_tables.cmake DESTINATION "${package_folder}")

@@ -1,12 +1,8 @@
-# Writes the kernels of every committed order:
+# Writes the kernels of every committed order, by one run of the generator:
 #   cmake -DZONAL_GEN=path/to/zonal-gen -DOUT=folder -P cmake/regenerate.cmake
 include("${CMAKE_CURRENT_LIST_DIR}/orders.cmake")
-set(cpp_orders ${ZONAL_COMMITTED_ORDERS})
-set(glsl_orders ${ZONAL_COMMITTED_SHADER_ORDERS})
-set(spirv_orders ${ZONAL_COMMITTED_SHADER_ORDERS})
-foreach(language cpp glsl spirv)
-  foreach(order IN LISTS ${language}_orders)
-    execute_process(COMMAND "${ZONAL_GEN}" emit --order ${order} --language ${language} --out "${OUT}/${language}"
-      OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-  endforeach()
-endforeach()
+list(JOIN ZONAL_COMMITTED_ORDERS "+" cpp_orders)
+list(JOIN ZONAL_COMMITTED_SHADER_ORDERS "+" shader_orders)
+execute_process(COMMAND "${ZONAL_GEN}" emit
+    --languages "cpp:${cpp_orders},glsl:${shader_orders},spirv:${shader_orders}" --out "${OUT}"
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)

@@ -43,7 +43,7 @@ build "$out/kernels" "zonal-rotate-map zonal-report" -DZONAL_BUILD_GENERATOR=OFF
 "$out/kernels/bin/zonal-report" --stats "$out/stats.json"
 
 if [ "$accept" = yes ]; then
-  cp "$table" generator/tables/
+  cp "$table" generator/tables/shared/
   "$gen" emit --order "$order" --language cpp --out generated/cpp
   echo "accepted. Next: list the order in cmake/orders.cmake, publish its error bound (generator/tables/README.md)"
 fi

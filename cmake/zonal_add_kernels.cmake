@@ -3,6 +3,8 @@
 # Has zonal-gen write the kernels of the given orders (2 to 20) when TARGET is built, and again when the program
 # or a table of the orders changes. TARGET, and what links to it, can then include "zonal/orderNN.hpp".
 # Needs zonal-gen: built in this tree (ZONAL_BUILD_GENERATOR=ON) or installed with the package zonal.
+include("${CMAKE_CURRENT_LIST_DIR}/zonal_tables.cmake")
+
 function(zonal_add_kernels target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LANGUAGE" "ORDERS")
   set(call "zonal_add_kernels(${target})")
@@ -44,9 +46,7 @@ function(zonal_add_kernels target)
       set(digits "0${order}")
     endif()
     set(header "${folder}/zonal/order${digits}.hpp")
-    file(GLOB tables "${ZONAL_TABLES_FOLDER}/order${digits}.json" "${ZONAL_TABLES_FOLDER}/conditioned/order${digits}.json"
-      "${ZONAL_TABLES_FOLDER}/band*.json" "${ZONAL_TABLES_FOLDER}/mirrored/*.json"
-      "${ZONAL_TABLES_FOLDER}/bounds.json")
+    zonal_tables_of(tables ${order})
     add_custom_command(OUTPUT "${header}"
       COMMAND ${program} emit --order ${order} --language ${arg_LANGUAGE} --out "${folder}"
       DEPENDS ${program} ${tables}

@@ -6,17 +6,21 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 
+#include "apps/emit_jobs.hpp"
+#include "bounds/published.hpp"
 #include "emit/cpp.hpp"
 #include "emit/file.hpp"
 #include "emit/glsl.hpp"
 #include "emit/glsl_tailored.hpp"
 #include "emit/spirv.hpp"
 #include "emit/wgsl.hpp"
+#include "io/output_file.hpp"
+#include "io/user_error.hpp"
+#include "kernels/lobes.hpp"
+#include "kernels/order_kernels.hpp"
 #include "kernels/registry.hpp"
-#include "order_kernels.hpp"
-#include "output_file.hpp"
-#include "user_error.hpp"
 
 namespace zonal {
 
@@ -26,7 +30,9 @@ namespace fs = std::filesystem;
 
 struct EmitOptions {
     int order = 0;
+    std::string orders;
     std::string language;
+    std::string languages;
     std::string table;
     std::string out;
     bool is_optimized = false;
@@ -66,9 +72,10 @@ emit::TailoredRotation tailored_rotation(const kernels::LobeSet& lobes) {
 
 Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
     Files files{{unit.file_stem + ".glsl", emit::print_glsl(unit)}};
-    if (order.lobes)
+    if (order.tables.shared)
         files.push_back({unit.file_stem + "_tailored.glsl",
-                         emit::print_glsl_tailored(unit, tailored_rotation(order.lobes->set))});
+                         emit::print_glsl_tailored(
+                             unit, tailored_rotation(kernels::LobeSet::shared(order.tables.shared->table)))});
     return files;
 }
 
@@ -93,43 +100,47 @@ const std::map<std::string, Language>& languages() {
     return all;
 }
 
-const Language& find_language(const std::string& name) {
+const Language& find_language(const char* option, const std::string& name) {
     const auto found = languages().find(name);
     if (found != languages().end()) return found->second;
     std::string known;
     for (const auto& [key, language] : languages()) known += (known.empty() ? "" : ", ") + key;
-    throw UserError(fmt::format("--language: found '{}', wanted one of: {}", name, known));
+    throw UserError(fmt::format("{}: found '{}', wanted one of: {}", option, name, known));
 }
 
-std::vector<std::string> tables_of(const OrderKernels& order) {
-    if (!order.lobes) return {"none for this order, so no searched lobes: zonal-gen search"};
+std::vector<std::string> lines_of(const OrderTables& tables) {
+    if (!tables.shared) return {"none for this order, so no searched lobes: zonal-gen search"};
     const auto describe = [](const NamedTable& source, const char* use = "") {
         return fmt::format("{}  sha256:{}{}", source.name, source.table.short_hash(), use);
     };
-    std::vector<std::string> tables{describe(order.lobes->source)};
-    if (order.turned) tables.push_back(describe(order.turned->source, ", of rotate_zhf"));
-    if (order.band_lobes)
-        for (const NamedTable& source : order.band_lobes->sources) tables.push_back(describe(source));
-    return tables;
+    std::vector<std::string> lines{describe(*tables.shared)};
+    if (tables.has_own_rotate_zhf()) lines.push_back(describe(*tables.rotate_zhf, ", of rotate_zhf"));
+    for (const TablePointer& source : tables.per_band) lines.push_back(describe(*source));
+    return lines;
 }
 
-emit::Unit make_unit(const EmitOptions& options, const OrderKernels& order) {
+/// The command that makes one language of an order, whatever else the run makes.
+std::string command_of(const EmitOptions& options, const OrderKernels& order, const std::string& language) {
+    return fmt::format("zonal-gen emit --order {} --language {}{}{} --out generated/{}", order.order,
+                       language, options.table.empty() ? "" : " --table " + order.tables.shared->name,
+                       options.is_optimized ? " --optimize" : "", language);
+}
+
+/// All but the command.
+emit::Unit make_unit(const OrderKernels& order) {
     emit::Unit unit;
-    unit.name = fmt::format("order{}", options.order);
-    unit.file_stem = fmt::format("order{:02}", options.order);
-    unit.command =
-        fmt::format("zonal-gen emit --order {} --language {}{}{} --out generated/{}", options.order,
-                    options.language, options.table.empty() ? "" : " --table " + order.lobes->source.name,
-                    options.is_optimized ? " --optimize" : "", options.language);
-    unit.tables = tables_of(order);
+    unit.name = fmt::format("order{}", order.order);
+    unit.file_stem = fmt::format("order{:02}", order.order);
+    unit.tables = lines_of(order.tables);
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
     unit.kernels = order.kernels;
     for (const graph::Kernel& kernel : unit.kernels)
         for (const std::string& source : kernel.sources)
             if (std::find(unit.sources.begin(), unit.sources.end(), source) == unit.sources.end())
                 unit.sources.push_back(source);
-    unit.bounds = order.bounds;
-    unit.constants = {{"kHasLobes", order.lobes ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
+    unit.bounds = published_bounds(order.order, order.tables);
+    unit.constants = {
+        {"kHasLobes", order.tables.shared ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
     const bool has_per_band = std::ranges::any_of(
         unit.kernels, [](const graph::Kernel& kernel) { return kernel.variant == "per_band"; });
     unit.constants.push_back(
@@ -148,16 +159,44 @@ emit::Unit make_unit(const EmitOptions& options, const OrderKernels& order) {
     return unit;
 }
 
+EmitJobs jobs_of(const EmitOptions& options) {
+    if (!options.language.empty()) find_language("--language", options.language);
+    std::set<int> orders;
+    if (options.order != 0) {
+        check_order(options.order);
+        orders = {options.order};
+    } else if (!options.orders.empty()) {
+        orders = orders_of("--orders", options.orders);
+    }
+    const EmitJobs jobs = emit_jobs(orders, options.language.empty() ? options.languages : options.language);
+    for (const auto& [order, names] : jobs)
+        for (const std::string& name : names) {
+            find_language("--languages", name);
+            if ((options.is_optimized || options.is_binary) && name != "spirv")
+                throw UserError(fmt::format("--optimize, --binary: found with {}, wanted spirv alone", name));
+        }
+    return jobs;
+}
+
+/// The folder of a language: --out itself where --language says which, inside it where there are several.
+fs::path folder_of(const EmitOptions& options, const std::string& language) {
+    if (!options.language.empty() && !options.out.empty()) return options.out;
+    return fs::path(options.out.empty() ? "generated" : options.out) / language;
+}
+
 void run(const EmitOptions& options) {
-    const Language& language = find_language(options.language);
-    if ((options.is_optimized || options.is_binary) && options.language != "spirv")
-        throw UserError(
-            fmt::format("--optimize, --binary: found with --language {}, wanted spirv", options.language));
-    const OrderKernels order = build_order_kernels(options.order, options.table);
-    const fs::path folder = options.out.empty() ? "generated/" + options.language : options.out;
-    for (const emit::File& file : language(make_unit(options, order), order, options)) {
-        write_file_atomically(folder / file.path, file.content);
-        fmt::print("{}\n", (folder / file.path).string());
+    TableShelf shelf = project_tables();
+    for (const auto& [number, names] : jobs_of(options)) {
+        const OrderKernels order = build_order_kernels(shelf, number, options.table);
+        emit::Unit unit = make_unit(order);
+        for (const std::string& name : names) {
+            unit.command = command_of(options, order, name);
+            const fs::path folder = folder_of(options, name);
+            for (const emit::File& file : languages().at(name)(unit, order, options)) {
+                write_file_atomically(folder / file.path, file.content);
+                fmt::print("{}\n", (folder / file.path).string());
+            }
+        }
     }
 }
 
@@ -166,13 +205,27 @@ void run(const EmitOptions& options) {
 void add_emit_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
     const auto options = std::make_shared<EmitOptions>();
-    command->add_option("--order", options->order, "number of bands")->required();
-    command->add_option("--language", options->language, "cpp, glsl, spirv or wgsl")->required();
-    command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");
-    command->add_option("--out", options->out, "folder to write into (default: generated/LANGUAGE)");
+    CLI::Option* order = command->add_option("--order", options->order, "number of bands");
+    command->add_option("--orders", options->orders, "several orders, such as 3-6,8")->excludes(order);
+    CLI::Option_group* language = command->add_option_group("language", "what to write");
+    language->add_option("--language", options->language, "cpp, glsl, spirv or wgsl");
+    language->add_option("--languages", options->languages,
+                         "several languages, such as cpp,glsl; one may have orders of its own, joined by +: "
+                         "cpp:2-10,glsl:3-6+8");
+    language->require_option(1);
+    command
+        ->add_option("--table", options->table, "lobe table (default: generator/tables/shared/orderNN.json)")
+        ->needs(order);
+    command->add_option("--out", options->out,
+                        "folder to write into (default: generated/LANGUAGE); with --languages the folder of "
+                        "their folders (default: generated)");
     command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");
     command->add_flag("--binary", options->is_binary, "spirv: write assembled modules (.spv) as well");
-    command->callback([options] { run(*options); });
+    command->callback([options] {
+        if (!options->language.empty() && options->order == 0 && options->orders.empty())
+            throw UserError("--language: found no order, wanted --order N or --orders 3-6,8");
+        run(*options);
+    });
 }
 
 }  // namespace zonal

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "exact/angles.hpp"
-#include "output_file.hpp"
+#include "io/output_file.hpp"
+#include "io/user_error.hpp"
 #include "search/front.hpp"
-#include "user_error.hpp"
 
 namespace zonal {
 namespace {
@@ -63,17 +63,16 @@ class Reader {
     }
 
     FoundSet read_set(const Json& json, const std::string& place, const search::Problem& problem) const {
-        using Pair = std::array<std::string, 2>;
-        std::vector<LobeAngles> angles;
-        for (const auto& [theta, phi] :
-             field<std::vector<Pair>>(json, place, "angles", "a list of [theta, phi], each a text"))
-            angles.push_back({theta, phi});
+        const auto angles = field<std::vector<std::array<std::string, 2>>>(
+            json, place, "angles", "a list of [theta, phi], each a text");
         if (static_cast<int>(angles.size()) != use_.lobe_count())
             complain(place + "angles", fmt::format("{} lobes", angles.size()),
                      std::to_string(use_.lobe_count()));
         FoundSet set;
         try {
-            static_cast<search::Solution&>(set) = search::confirm(problem, angled_lobes(angles));
+            search::AngledSet lobes;
+            for (const auto& [theta, phi] : angles) lobes.push_back(angled_lobe(theta, phi));
+            static_cast<search::Solution&>(set) = search::confirm(problem, lobes);
         } catch (const std::invalid_argument& error) {
             complain(place + "angles", error.what(), "closed forms or decimals (generator/tables/README.md)");
         }
@@ -100,12 +99,8 @@ class Reader {
 
 }  // namespace
 
-search::AngledSet angled_lobes(const std::vector<LobeAngles>& angles) {
-    search::AngledSet lobes;
-    for (const auto& [theta, phi] : angles)
-        lobes.push_back(
-            {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}});
-    return lobes;
+search::AngledLobe angled_lobe(const std::string& theta, const std::string& phi) {
+    return {{exact::evaluate_closed_form(theta), theta}, {exact::evaluate_closed_form(phi), phi}};
 }
 
 std::vector<FoundSet> read_front(const std::filesystem::path& path, const LobeUse& use,

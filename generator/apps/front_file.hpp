@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lobe_table.hpp"
+#include "lobes/lobe_use.hpp"
 #include "search/search.hpp"
 
 namespace zonal {
@@ -14,8 +14,8 @@ struct FoundSet : search::Solution {
     std::string command;
 };
 
-/// The lobes that angles as text give. Throws std::invalid_argument that quotes a text it cannot read.
-search::AngledSet angled_lobes(const std::vector<LobeAngles>& angles);
+/// The lobe that angles as text give. Throws std::invalid_argument that quotes a text it cannot read.
+search::AngledLobe angled_lobe(const std::string& theta, const std::string& phi);
 
 /// The sets of an archive, each scored afresh at 50 digits; none where there is no file yet. Throws
 /// `UserError` naming file, field, value and next step when it is truncated, for another use, or claims what

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <memory>
 
-#include "output_file.hpp"
+#include "io/output_file.hpp"
+#include "lobes/tables_folder.hpp"
 #include "paper/comparison.hpp"
 #include "paper/sheets.hpp"
-#include "tables_folder.hpp"
 
 namespace zonal {
 namespace {

@@ -12,16 +12,16 @@
 #include <optional>
 
 #include "apps/front_file.hpp"
+#include "io/output_file.hpp"
+#include "io/user_error.hpp"
+#include "kernels/order_kernels.hpp"
 #include "kernels/registry.hpp"
-#include "lobe_table.hpp"
-#include "order_kernels.hpp"
-#include "output_file.hpp"
+#include "lobes/lobe_table.hpp"
 #include "search/front.hpp"
 #include "search/off_grid_search.hpp"
 #include "search/orbit_search.hpp"
 #include "search/progress_text.hpp"
 #include "search/search.hpp"
-#include "user_error.hpp"
 
 namespace zonal {
 namespace {
@@ -52,6 +52,7 @@ struct SearchOptions {
     int generations = 0;
     double seconds = 0;
     std::string out;
+    std::string role;
     std::string resume;
     std::string archive;
     bool is_plain = false;
@@ -70,13 +71,13 @@ struct SearchOptions {
     double mutation = 0;
     search::Objective objective;
 
-    LobeUse use() const { return band > 0 ? LobeUse::band(band) : LobeUse::order(order); }
-    /// Path of the table inside a tables folder: among the better conditioned ones where `--out` is.
-    std::filesystem::path table_path() const {
-        if (mirrors > 0) return use().mirrored_table_name();
-        const std::filesystem::path conditioned = use().conditioned_table_name();
-        const std::filesystem::path folder = std::filesystem::path(out).parent_path().filename();
-        return folder == conditioned.parent_path() ? conditioned : use().table_name();
+    TableRole default_role() const {
+        if (band == 0) return TableRole::shared;
+        return mirrors > 0 ? TableRole::band_mirrored : TableRole::band;
+    }
+    LobeUse use() const {
+        const TableRole chosen = role.empty() ? default_role() : role_named(role).value();
+        return band > 0 ? LobeUse::band(band, chosen) : LobeUse::order(order, chosen);
     }
     search::Problem problem() const {
         return band > 0 ? search::Problem::one_band(band) : search::Problem::shared(order);
@@ -86,7 +87,7 @@ struct SearchOptions {
 /// The table that `--resume` names.
 std::optional<LobeTable> read_start(const SearchOptions& options) {
     if (options.resume.empty()) return std::nullopt;
-    return read_lobe_table(options.resume, options.use());
+    return read_lobes_to_start_from(options.resume, options.use());
 }
 
 search::SearchSettings settings_of(const SearchOptions& options, const search::Problem& problem,
@@ -109,7 +110,10 @@ search::SearchSettings settings_of(const SearchOptions& options, const search::P
     genetic.elite = options.elite;
     genetic.crossover_fraction = options.crossover;
     genetic.mutation_rate = options.mutation;
-    if (start) settings.start = angled_lobes(start->angles);
+    if (start) {
+        settings.start.emplace();
+        for (const Lobe& lobe : start->lobes) settings.start->push_back(angled_lobe(lobe.theta, lobe.phi));
+    }
     return settings;
 }
 
@@ -126,12 +130,13 @@ std::string canonical_command(const SearchOptions& options, const std::optional<
                               int generations) {
     const SearchOptions standard;
     const LobeUse use = options.use();
-    std::string command = fmt::format("zonal-gen search --{} {} --seed {} --generations {}", use.field,
-                                      use.value, options.seed, generations);
+    const std::string role = use.role == options.default_role() ? "" : " --for " + name_of(use.role);
+    std::string command = fmt::format("zonal-gen search --{} {}{} --seed {} --generations {}", use.field,
+                                      use.value, role, options.seed, generations);
     const auto add = [&](const char* name, const auto& value, const auto& default_value) {
         if (value != default_value) command += fmt::format(" {} {}", name, value);
     };
-    const std::string table = fmt::format("generator/tables/{}", options.table_path().string());
+    const std::string table = fmt::format("generator/tables/{}", use.table_path().string());
     if (options.mirrors > 0) command += fmt::format(" --mirrors {}", options.mirrors);
     if (options.is_plain) command += " --plain";
     if (options.stays_on_grid) command += " --on-grid";
@@ -164,21 +169,28 @@ LobeTable table_of(const SearchOptions& options, const std::optional<LobeTable>&
     table.seed = options.seed;
     table.command = canonical_command(options, start, generations);
     const search::AngledSet lobes = search::in_reading_order(solution.lobes);
-    table.directions = search::directions_of(lobes);
-    for (const search::AngledLobe& lobe : lobes) {
-        table.angles.push_back({lobe.theta.text, lobe.phi.text});
-    }
-    measure_lobe_table(table);
+    for (const search::AngledLobe& lobe : lobes)
+        table.lobes.push_back({lobe.direction(), lobe.theta.text, lobe.phi.text});
+    factorize(table);
     return table;
 }
 
 void check_use(const SearchOptions& options) {
+    if (!options.role.empty()) {
+        const char* const wanted = options.band > 0 ? "band or band_mirrored" : "shared or rotate_zhf";
+        const auto role = role_named(options.role);
+        const LobeUse some = options.band > 0 ? LobeUse::band(options.band) : LobeUse::order(options.order);
+        if (!role || !some.may_be(*role))
+            throw UserError(fmt::format("--for: found '{}', wanted {}", options.role, wanted));
+        if (*role == TableRole::band_mirrored && options.mirrors == 0)
+            throw UserError("--for band_mirrored: found no --mirrors, wanted how many; say --mirrors 1");
+    }
     if (options.band == 0) return check_order(options.order, kernels::kSmallestLobeOrder);
     if (options.band < 2 || options.band >= kLargestOrder)
         throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
 }
 
-int emitted_instructions(const exact::BandFactorization& band) {
+int emitted_instructions(const BandFactorization& band) {
     return kernels::factorization_counts(band).instructions();
 }
 
@@ -238,8 +250,9 @@ void run(const SearchOptions& options) {
                                     options.use().field, options.use().value, options.objective.condition_cap,
                                     result.progress.generation, next_step));
     }
-    write_lobe_table(options.out,
-                     start && found_in == 0 ? *start : table_of(options, start, result.best, found_in));
+    LobeTable best = start && found_in == 0 ? *start : table_of(options, start, result.best, found_in);
+    best.use = options.use();
+    write_lobe_table(options.out, best);
     if (!options.archive.empty()) {
         const std::string command = canonical_command(options, start, result.progress.generation);
         for (const search::Solution& solution : result.front)
@@ -260,11 +273,12 @@ void add_search_command(CLI::App& app) {
     use->add_option("--order", o.order, "number of bands that share the lobes, 3 to 20");
     CLI::Option* band = use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");
     use->require_option(1);
-    command
-        ->add_option("--out", o.out,
-                     "table to write; rewritten whenever a better one is found; in a folder named "
-                     "conditioned, for rotate_zhf alone")
+    command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
         ->required();
+    command->add_option("--for", o.role,
+                        "what the table serves: shared or rotate_zhf (a kernel that needs a lower cap on the "
+                        "condition), band or band_mirrored (default: shared with --order, band with --band, "
+                        "band_mirrored with --mirrors)");
     command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
     command
         ->add_option("--generations", o.generations,

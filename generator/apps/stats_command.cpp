@@ -9,9 +9,9 @@
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
 #include "kernels/lobes.hpp"
+#include "kernels/order_kernels.hpp"
 #include "kernels/planner.hpp"
 #include "kernels/rotations.hpp"
-#include "order_kernels.hpp"
 
 namespace zonal {
 
@@ -46,9 +46,8 @@ Json to_json(const graph::Kernel& kernel) {
 }
 
 /// The method each kernel has for every band, and what the others would cost.
-Json methods_to_json(int order) {
+Json methods_to_json(int order, const kernels::OrderPlans& plans) {
     Json bands = Json::array();
-    const kernels::OrderPlans plans = kernels::plan_order(order);
     for (int l = 1; l < order; ++l) {
         Json others = Json::array();
         for (const kernels::Alternative& way : kernels::alternatives(order, l))
@@ -65,13 +64,13 @@ Json methods_to_json(int order) {
 }
 
 /// Bands 2 … N-1.
-Json to_json(const BandLobes& lobes) {
+Json to_json(const std::vector<TablePointer>& per_band) {
     Json bands = Json::array();
-    for (const NamedTable& source : lobes.sources) {
-        const LobeTable& table = source.table;
-        const graph::Counts counts = kernels::factorization_counts(lobes.set.bands[table.use.value]);
+    for (const TablePointer& source : per_band) {
+        const LobeTable& table = source->table;
+        const graph::Counts counts = kernels::factorization_counts(table.bands.front());
         bands.push_back({{"band", table.use.value},
-                         {"table", source.name},
+                         {"table", source->name},
                          {"zeros", table.zeros[0]},
                          {"multiplications", counts.multiplications()},
                          {"instructions", counts.instructions()},
@@ -82,26 +81,27 @@ Json to_json(const BandLobes& lobes) {
 
 Json to_json(const OrderKernels& order) {
     Json json{{"order", order.order}};
-    if (order.lobes) {
-        const LobeTable& table = order.lobes->source.table;
+    const OrderTables& tables = order.tables;
+    if (tables.shared) {
+        const LobeTable& table = tables.shared->table;
         Json bands = Json::array();
         for (int l = 0; l < order.order; ++l)
-            bands.push_back({{"band", l},
-                             {"entries", (2 * l + 1) * (2 * l + 1)},
-                             {"zeros", table.zeros[l]},
-                             {"multiplications",
-                              kernels::factorization_counts(order.lobes->set.bands[l]).multiplications()},
-                             {"cond", table.condition[l]}});
-        json["table"] = order.lobes->source.name;
+            bands.push_back(
+                {{"band", l},
+                 {"entries", (2 * l + 1) * (2 * l + 1)},
+                 {"zeros", table.zeros[l]},
+                 {"multiplications", kernels::factorization_counts(table.bands[l]).multiplications()},
+                 {"cond", table.condition[l]}});
+        json["table"] = tables.shared->name;
         json["nonzeros"] = table.nonzeros;
         json["bands"] = bands;
-        const LobeTable& turned = order.turned_source().table;
-        json["rotate_zhf"] = {{"table", order.turned_source().name},
+        const LobeTable& turned = tables.rotate_zhf->table;
+        json["rotate_zhf"] = {{"table", tables.rotate_zhf->name},
                               {"nonzeros", turned.nonzeros},
                               {"cond", std::ranges::max(turned.condition)}};
     }
-    if (order.band_lobes) json["per_band"] = to_json(*order.band_lobes);
-    json["methods"] = methods_to_json(order.order);
+    if (!tables.per_band.empty()) json["per_band"] = to_json(tables.per_band);
+    json["methods"] = methods_to_json(order.order, order.plans);
     Json kernels;
     for (const graph::Kernel& kernel : order.kernels) kernels[kernel.full_name()] = to_json(kernel);
     json["kernels"] = kernels;
@@ -137,7 +137,8 @@ void add_stats_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("stats", "count the operations of every kernel of an order");
     const auto options = std::make_shared<StatsOptions>();
     command->add_option("--order", options->order, "number of bands")->required();
-    command->add_option("--table", options->table, "lobe table (default: generator/tables/orderNN.json)");
+    command->add_option("--table", options->table,
+                        "lobe table (default: generator/tables/shared/orderNN.json)");
     command->add_flag("--json", options->as_json, "print JSON");
     command->callback([options] {
         const Json stats = to_json(build_order_kernels(options->order, options->table));

@@ -73,7 +73,7 @@ graph::Kernel resampled_band(const Unit& unit, const TailoredRotation::SampledBa
     std::erase_if(kernel.stores, [&](const graph::Store& store) {
         return store.index < band.first_output || store.index >= band.first_output + band.output_count;
     });
-    return graph::remove_dead(kernel);
+    return graph::remove_dead(std::move(kernel));
 }
 
 /// Band by band, so that no more than one band's samples wait in registers: compilers leave fetches where

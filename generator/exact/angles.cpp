@@ -1,7 +1,6 @@
 // The small language of angles in lobe tables, as a Boost.Spirit grammar.
 #include "exact/angles.hpp"
 
-#include <boost/math/constants/constants.hpp>
 #include <boost/spirit/home/x3.hpp>
 #include <stdexcept>
 #include <string>
@@ -35,7 +34,7 @@ const auto arc_cosine = [](auto& c) {
     x3::_pass(c) = abs(x3::_attr(c)) <= 1;
     if (x3::_pass(c)) x3::_val(c) = acos(x3::_attr(c));
 };
-const auto pi = [](auto& c) { x3::_val(c) = boost::math::constants::pi<Real>(); };
+const auto pi = [](auto& c) { x3::_val(c) = exact::pi(); };
 const auto decimal = [](auto& c) {
     x3::_val(c) = Real{std::string(x3::_attr(c).begin(), x3::_attr(c).end())};
 };
@@ -62,7 +61,7 @@ Real evaluate_closed_form(std::string_view text) {
     return value;
 }
 
-std::string decimal_text(const Real& value) { return value.str(50, std::ios_base::fmtflags{}); }
+std::string decimal_text(const Real& value) { return value.str(50); }
 
 Direction<Real> direction_of(const Real& theta, const Real& phi) {
     const Real radius = sin(theta);

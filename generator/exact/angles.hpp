@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 
 namespace zonal::exact {
 

@@ -1,6 +1,6 @@
 #include "exact/legendre.hpp"
 
-#include <boost/math/constants/constants.hpp>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace zonal::exact {
@@ -27,8 +27,7 @@ Real basis_scale(int l, int m) {
     leading = ldexp(leading, -l);
     Real factorial_ratio{1};
     for (int k = l - order + 1; k <= l + order; ++k) factorial_ratio *= k;
-    const Real norm =
-        Real(order == 0 ? 1 : 2) * (2 * l + 1) / (4 * boost::math::constants::pi<Real>() * factorial_ratio);
+    const Real norm = Real(order == 0 ? 1 : 2) * (2 * l + 1) / (4 * pi() * factorial_ratio);
     return leading * sqrt(norm);
 }
 

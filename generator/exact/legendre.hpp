@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 
 namespace zonal::exact {
 

@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 
 namespace zonal::exact {
 

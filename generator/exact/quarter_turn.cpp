@@ -12,7 +12,7 @@ namespace {
 /// turn does determines no odd band).
 std::vector<Direction<Real>> spiral(int count) {
     std::vector<Direction<Real>> directions;
-    const Real golden_angle_rad = boost::math::constants::pi<Real>() * (3 - sqrt(Real(5)));
+    const Real golden_angle_rad = pi() * (3 - sqrt(Real(5)));
     for (int d = 0; d < count; ++d) {
         const Real z = 1 - (2 * d + Real(0.5)) / count;
         const Real radius = sqrt(1 - z * z);

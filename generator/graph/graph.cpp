@@ -1,6 +1,8 @@
 #include "graph/graph.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace zonal::graph {
@@ -9,7 +11,25 @@ namespace {
 
 Kind joined(Kind a, Kind b) { return std::max(a, b); }
 
+/// Constants whose relative difference is smaller are one that was derived in two ways.
+const Number kSameValue{"1e-45"};
+
 }  // namespace
+
+std::size_t Graph::KeyHash::operator()(const Key& key) const {
+    std::size_t hash = static_cast<std::size_t>(key.op);
+    const auto add = [&](int value) { hash = (hash ^ static_cast<unsigned>(value)) * 0x9e3779b97f4a7c15u; };
+    for (const Id operand : key.operands) add(operand);
+    add(2 * key.negated_product + key.negated_addend);
+    add(key.array);
+    add(key.index);
+    return hash ^ (hash >> 32);
+}
+
+void Graph::reserve(int size) {
+    nodes_.reserve(size);
+    known_.reserve(size);
+}
 
 Id Graph::append(Node node) {
     node.scope = scope_;
@@ -25,14 +45,15 @@ Id Graph::intern(Node node) {
 }
 
 Id Graph::constant(const Number& value) {
-    // 45 digits tell constants apart that differ, and join those that two derivations made equal.
-    const auto [entry, is_new] = constants_.try_emplace(value.str(45, std::ios::scientific), size());
-    if (is_new) {
-        Node node;
-        node.value = value;
-        append(std::move(node));
-    }
-    return entry->second;
+    const auto key = static_cast<double>(value);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto last = constants_.upper_bound(std::nextafter(key, kInfinity));
+    for (auto near = constants_.lower_bound(std::nextafter(key, -kInfinity)); near != last; ++near)
+        if (abs(nodes_[near->second].value - value) <= kSameValue * abs(value)) return near->second;
+    Node node;
+    node.value = value;
+    constants_.emplace(key, size());
+    return append(std::move(node));
 }
 
 Id Graph::input(Kind kind, int array, int index) {
@@ -129,14 +150,14 @@ Id Graph::fused(Id a, Id b, Id c, bool negated_product, bool negated_addend) {
     return intern(std::move(node));
 }
 
-Id Graph::rotation_scalar(Op op, std::vector<Id> operands) {
+Id Graph::rotation_scalar(Op op, Operands operands) {
     for (const Id operand : operands)
         if (nodes_[operand].kind == Kind::signal)
             throw std::logic_error("a signal value has no quotient, root or sign");
     Node node;
     node.op = op;
     node.kind = Kind::rotation;
-    node.operands = std::move(operands);
+    node.operands = operands;
     return intern(std::move(node));
 }
 

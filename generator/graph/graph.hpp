@@ -1,15 +1,19 @@
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <map>
 #include <string>
-#include <tuple>
+#include <unordered_map>
 #include <vector>
+
+#include "exact/real.hpp"
 
 namespace zonal::graph {
 
 /// Constants stay at 50 digits until a printer rounds them once.
-using Number = boost::multiprecision::cpp_bin_float_50;
+using Number = exact::Real;
 
 /// What a value depends on. A *rotation scalar* depends on the rotation only and is paid once per rotation; a
 /// *signal value* is linear in the input vector and is paid once per vector.
@@ -23,10 +27,28 @@ enum class Op { constant, input, negate, add, subtract, multiply, fused, divide,
 /// Names a node of one graph; smaller ids were made earlier, so ids are a topological order.
 using Id = int;
 
+/// At most three.
+class Operands {
+  public:
+    Operands() = default;
+    Operands(std::initializer_list<Id> ids) : size_(static_cast<int>(ids.size())) {
+        std::copy(ids.begin(), ids.end(), ids_.begin());
+    }
+    int size() const { return size_; }
+    Id operator[](int k) const { return ids_[k]; }
+    const Id* begin() const { return ids_.data(); }
+    const Id* end() const { return ids_.data() + size_; }
+    friend bool operator==(const Operands&, const Operands&) = default;
+
+  private:
+    std::array<Id, 3> ids_{-1, -1, -1};
+    int size_ = 0;
+};
+
 struct Node {
     Op op = Op::constant;
     Kind kind = Kind::constant;
-    std::vector<Id> operands;  ///< in the order they are written; multiply: the scalar first; fused: a, b, c
+    Operands operands;  ///< in the order they are written; multiply: the scalar first; fused: a, b, c
     bool negated_product = false;  ///< fused only
     bool negated_addend = false;   ///< fused only
     Number value = 0;              ///< constant only
@@ -61,6 +83,8 @@ class Graph {
 
     const Node& operator[](Id id) const { return nodes_[id]; }
     int size() const { return static_cast<int>(nodes_.size()); }
+    /// For a graph that will have so many nodes.
+    void reserve(int size);
 
     /// Values made from here on belong to this part of the kernel.
     void set_scope(std::string scope) { scope_ = std::move(scope); }
@@ -70,14 +94,24 @@ class Graph {
     void copy_labels(Id id, const Node& from);
 
   private:
-    using Key = std::tuple<Op, std::vector<Id>, bool, bool, int, int>;
+    /// What makes two nodes that are no constants the same.
+    struct Key {
+        Op op;
+        Operands operands;
+        bool negated_product, negated_addend;
+        int array, index;
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+    struct KeyHash {
+        std::size_t operator()(const Key& key) const;
+    };
     Id intern(Node node);
     Id append(Node node);
-    Id rotation_scalar(Op op, std::vector<Id> operands);
+    Id rotation_scalar(Op op, Operands operands);
 
     std::vector<Node> nodes_;
-    std::map<std::string, Id> constants_;  ///< by their digits
-    std::map<Key, Id> known_;              ///< all others
+    std::multimap<double, Id> constants_;         ///< by what they are nearest to
+    std::unordered_map<Key, Id, KeyHash> known_;  ///< all others
     std::string scope_;
 };
 

@@ -1,6 +1,7 @@
 #include "graph/passes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace zonal::graph {
 
@@ -11,13 +12,6 @@ std::vector<std::vector<Id>> users_of(const Graph& graph) {
     for (Id id = 0; id < graph.size(); ++id)
         for (const Id operand : graph[id].operands) users[operand].push_back(id);
     return users;
-}
-
-/// The same kernel with an empty graph, to be filled by a pass.
-Kernel without_graph(const Kernel& kernel) {
-    Kernel copy = kernel;
-    copy.graph = Graph{};
-    return copy;
 }
 
 /// Makes the same node again over new operands.
@@ -64,8 +58,8 @@ Id rebuild(Graph& graph, const Node& node, const std::vector<Id>& moved) {
 
 }  // namespace
 
-Kernel form_fused(const Kernel& kernel) {
-    const Graph& old = kernel.graph;
+Kernel form_fused(Kernel kernel) {
+    const Graph old = std::exchange(kernel.graph, {});
     const auto users = users_of(old);
     std::vector<bool> is_output(old.size(), false);
     for (const Store& store : kernel.stores) is_output[store.value] = true;
@@ -89,33 +83,33 @@ Kernel form_fused(const Kernel& kernel) {
         for (Id id = 0; id < old.size(); ++id)
             if (old[id].op == Op::multiply && (users[id].size() == 1) == is_single) try_fuse(id);
 
-    Kernel result = without_graph(kernel);
+    Graph& graph = kernel.graph;
+    graph.reserve(old.size());
     std::vector<Id> moved(old.size(), -1);
     for (Id id = 0; id < old.size(); ++id) {
         const Node& node = old[id];
         if (fused_operand[id] < 0) {
-            moved[id] = rebuild(result.graph, node, moved);
+            moved[id] = rebuild(graph, node, moved);
             continue;
         }
         const int position = fused_operand[id];
         const Node& product = old[node.operands[position]];
         const Id addend = moved[node.operands[1 - position]];
         const bool is_difference = node.op == Op::subtract;
-        moved[id] = result.graph.fused(moved[product.operands[0]], moved[product.operands[1]], addend,
-                                       is_difference && position == 1, is_difference && position == 0);
-        result.graph.copy_labels(moved[id], node);
+        moved[id] = graph.fused(moved[product.operands[0]], moved[product.operands[1]], addend,
+                                is_difference && position == 1, is_difference && position == 0);
+        graph.copy_labels(moved[id], node);
     }
-    for (Store& store : result.stores) store.value = moved[store.value];
-    return result;
+    for (Store& store : kernel.stores) store.value = moved[store.value];
+    return kernel;
 }
 
-Kernel absorb_negations(const Kernel& kernel) {
-    Kernel result = kernel;
-    Graph& graph = result.graph;
-    const auto users = users_of(kernel.graph);
-    std::vector<bool> is_output(kernel.graph.size(), false);
+Kernel absorb_negations(Kernel kernel) {
+    Graph& graph = kernel.graph;
+    const auto users = users_of(graph);
+    std::vector<bool> is_output(graph.size(), false);
     for (const Store& store : kernel.stores) is_output[store.value] = true;
-    for (Store& store : result.stores) {
+    for (Store& store : kernel.stores) {
         const Node negation = graph[store.value];
         if (negation.op != Op::negate) continue;
         const Id negated = negation.operands[0];
@@ -134,28 +128,29 @@ Kernel absorb_negations(const Kernel& kernel) {
         graph.copy_labels(id, inner);
         store.value = id;
     }
-    return result;
+    return kernel;
 }
 
-Kernel remove_dead(const Kernel& kernel) {
-    const Graph& old = kernel.graph;
+Kernel remove_dead(Kernel kernel) {
+    const Graph old = std::exchange(kernel.graph, {});
     std::vector<bool> is_needed(old.size(), false);
     for (const Store& store : kernel.stores) is_needed[store.value] = true;
     for (Id id = old.size() - 1; id >= 0; --id)
         if (is_needed[id])
             for (const Id operand : old[id].operands) is_needed[operand] = true;
 
-    Kernel result = without_graph(kernel);
+    kernel.graph.reserve(old.size());
     std::vector<Id> moved(old.size(), -1);
     for (Id id = 0; id < old.size(); ++id)
-        if (is_needed[id]) moved[id] = rebuild(result.graph, old[id], moved);
-    for (Store& store : result.stores) store.value = moved[store.value];
-    return result;
+        if (is_needed[id]) moved[id] = rebuild(kernel.graph, old[id], moved);
+    for (Store& store : kernel.stores) store.value = moved[store.value];
+    return kernel;
 }
 
 Halves split_by_kind(const Kernel& kernel) {
     const Graph& old = kernel.graph;
-    Halves halves{kernel, without_graph(kernel)};
+    Halves halves{kernel, kernel};
+    halves.apply.graph = {};
     halves.prepare.stores.clear();
     Graph& graph = halves.apply.graph;
     std::vector<Id> moved(old.size(), -1);
@@ -180,14 +175,14 @@ Halves split_by_kind(const Kernel& kernel) {
     halves.prepare.inputs.resize(1);
     halves.prepare.output.kind = Kind::rotation;
     halves.prepare.output.size = count;
-    halves.prepare = remove_dead(halves.prepare);
-    halves.apply = remove_dead(halves.apply);
+    halves.prepare = remove_dead(std::move(halves.prepare));
+    halves.apply = remove_dead(std::move(halves.apply));
     return halves;
 }
 
-Kernel optimize(const Kernel& kernel) {
+Kernel optimize(Kernel kernel) {
     // Dead users would keep products from being fused, so they go first.
-    return remove_dead(absorb_negations(form_fused(remove_dead(kernel))));
+    return remove_dead(absorb_negations(form_fused(remove_dead(std::move(kernel)))));
 }
 
 }  // namespace zonal::graph

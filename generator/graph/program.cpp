@@ -223,8 +223,8 @@ class Builder {
                     for (const Id id : operands_of(statement)) note_reader(statement, id, stage);
     }
 
-    std::vector<Id> operands_of(const Statement& statement) const {
-        return statement.is_store ? std::vector<Id>{statement.node} : node(statement.node).operands;
+    Operands operands_of(const Statement& statement) const {
+        return statement.is_store ? Operands{statement.node} : node(statement.node).operands;
     }
 
     /// What a store, a signal value or a later stage reads is kept: in the order of those outputs or signal

@@ -33,7 +33,8 @@ int width(const Node& node, int channels) {
 /// What a statement reads, each once, by id.
 std::vector<Id> operands_of(const Kernel& kernel, const Statement& statement) {
     if (statement.is_store) return {statement.node};
-    std::vector<Id> all = kernel.graph[statement.node].operands;
+    const Operands& operands = kernel.graph[statement.node].operands;
+    std::vector<Id> all(operands.begin(), operands.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;

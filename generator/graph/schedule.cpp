@@ -81,8 +81,8 @@ int peak_live_values(const Kernel& kernel, const std::vector<Statement>& stateme
 Spills simulate_spills(const Kernel& kernel, const std::vector<Statement>& statements, int registers) {
     const auto operands_of = [&](const Statement& statement) {
         std::vector<Id> computed;
-        const std::vector<Id> all =
-            statement.is_store ? std::vector<Id>{statement.node} : kernel.graph[statement.node].operands;
+        const Operands all =
+            statement.is_store ? Operands{statement.node} : kernel.graph[statement.node].operands;
         for (const Id id : all)
             if (is_computed(kernel.graph[id])) computed.push_back(id);
         return computed;

@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/constants/constants.hpp>
-
 #include "graph/sum.hpp"
 
 namespace zonal::kernels {
@@ -66,7 +64,7 @@ void build_band_2_tensor(graph::Kernel& kernel, const Matrix3& rows, const LobeS
     graph::Graph& graph = kernel.graph;
     // y_2^{-2} = scale * x y for unit vectors; the scale goes into the weights, so that three outputs need
     // none.
-    const Real scale = sqrt(15 / (4 * boost::math::constants::pi<Real>()));
+    const Real scale = sqrt(15 / (4 * exact::pi()));
     const auto snapped = [](const Real& value) {
         return abs(value) < exact::kZeroThreshold ? Real(0) : value;
     };

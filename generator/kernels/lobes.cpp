@@ -14,7 +14,6 @@
 #include <set>
 
 #include "exact/legendre.hpp"
-#include "exact/ring.hpp"
 #include "exact/spherical_harmonics.hpp"
 #include "graph/passes.hpp"
 #include "graph/shared_sums.hpp"
@@ -22,6 +21,7 @@
 #include "graph/sum.hpp"
 #include "kernels/lobe_tensor.hpp"
 #include "kernels/rotation_scalars.hpp"
+#include "lobes/ring.hpp"
 
 namespace zonal::kernels {
 
@@ -218,7 +218,7 @@ class LobeHarmonics {
 /// A common factor taken out of a band's weights ẑ and put into the constants its outputs are multiplied by
 /// anyway: the one that leaves the fewest factors other than ±1, those of equal size in a column counted
 /// once.
-Real cheapest_weight_scale(const exact::BandFactorization& band) {
+Real cheapest_weight_scale(const BandFactorization& band) {
     const int l = band.band;
     graph::Sizes scales;
     std::vector<int> saved(1, 0);  // by scale: columns and outputs that it turns into ±1
@@ -251,7 +251,7 @@ void turn_band_1(Kernel& kernel, const Matrix3& rows) {
 
 /// f'_lm = scale_lm * sum_d ẑ_d q_l^m(z_d) {C_m, S_m}(x_d, y_d), lobe by lobe.
 void build_band(Kernel& kernel, const LobeSet& lobes, int l, std::vector<LobeHarmonics>& harmonics) {
-    const exact::BandFactorization& band = lobes.bands[l];
+    const BandFactorization& band = lobes.bands[l];
     const int count = static_cast<int>(lobes.lobes_of[l].size());
     const Real weight_scale = cheapest_weight_scale(band);
     const exact::Matrix<Real> scaled = band.a_hat.transpose() / weight_scale;
@@ -280,10 +280,9 @@ void build_band(Kernel& kernel, const LobeSet& lobes, int l, std::vector<LobeHar
 
 }  // namespace
 
-LobeSet LobeSet::shared(int order, const std::vector<exact::Direction<Real>>& directions) {
-    LobeSet set{order, false, directions, {}, {}};
-    for (int l = 0; l < order; ++l) {
-        set.bands.push_back(exact::factorize_band(l, directions));
+LobeSet LobeSet::shared(const LobeTable& table) {
+    LobeSet set{table.use.value, false, directions_of(table.lobes), {}, table.bands};
+    for (const int l : table.use.bands) {
         set.lobes_of.emplace_back(band_size(l));
         std::iota(set.lobes_of[l].begin(), set.lobes_of[l].end(), 0);
     }
@@ -291,7 +290,7 @@ LobeSet LobeSet::shared(int order, const std::vector<exact::Direction<Real>>& di
 }
 
 LobeSet LobeSet::ring(int order) {
-    const exact::Ring ring = exact::best_ring(order);
+    const Ring ring = best_ring(order);
     LobeSet set{order, true, ring.directions(), {}, {}};
     std::vector<int> all(ring.count);
     std::iota(all.begin(), all.end(), 0);
@@ -302,15 +301,22 @@ LobeSet LobeSet::ring(int order) {
     return set;
 }
 
-LobeSet LobeSet::per_band(const std::vector<std::vector<exact::Direction<Real>>>& directions) {
+LobeSet LobeSet::per_band(const std::vector<const LobeTable*>& tables) {
+    using Direction = exact::Direction<Real>;
     LobeSet set;
-    set.order = static_cast<int>(directions.size());
-    for (int l = 0; l < set.order; ++l) {
-        set.bands.push_back(exact::factorize_band(l, directions[l]));
-        set.lobes_of.emplace_back(band_size(l));
-        std::iota(set.lobes_of[l].begin(), set.lobes_of[l].end(), static_cast<int>(set.directions.size()));
-        set.directions.insert(set.directions.end(), directions[l].begin(), directions[l].end());
-    }
+    const auto append = [&](const BandFactorization& band, const std::vector<Direction>& directions) {
+        set.lobes_of.emplace_back(directions.size());
+        std::iota(set.lobes_of.back().begin(), set.lobes_of.back().end(),
+                  static_cast<int>(set.directions.size()));
+        set.directions.insert(set.directions.end(), directions.begin(), directions.end());
+        set.bands.push_back(band);
+        ++set.order;
+    };
+    const std::vector<Direction> pole{Direction::UnitZ()};
+    const std::vector<Direction> axes{Direction::UnitY(), Direction::UnitZ(), Direction::UnitX()};
+    append(factorize_band(0, pole), pole);
+    append(factorize_band(1, axes), axes);
+    for (const LobeTable* table : tables) append(table->bands.front(), directions_of(table->lobes));
     return set;
 }
 
@@ -320,12 +326,12 @@ int LobeSet::weight_start(int l) const {
     return start;
 }
 
-graph::Counts factorization_counts(const exact::BandFactorization& band) {
+graph::Counts factorization_counts(const BandFactorization& band) {
     Kernel kernel;
     kernel.inputs = {{"f", Kind::signal, band_size(band.band), ""}};
     graph::SharedSums sums = shared_sums(kernel, band.a_hat.transpose(), {0, 0, band_size(band.band)});
     for (int d = 0; d < band_size(band.band); ++d) kernel.store(d, sums.output(d), 0);
-    return graph::count_operations(graph::optimize(kernel)).total();
+    return graph::count_operations(graph::optimize(std::move(kernel))).total();
 }
 
 Kernel build_factorize(const LobeSet& lobes) {

@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include "exact/factorization.hpp"
 #include "graph/counts.hpp"
+#include "graph/kernel.hpp"
+#include "lobes/lobe_table.hpp"
 
 namespace zonal::kernels {
 
@@ -14,23 +15,25 @@ struct LobeSet {
     bool is_ring = false;
     std::vector<exact::Direction<exact::Real>> directions;  ///< unit
     std::vector<std::vector<int>> lobes_of;                 ///< of bands 0 … order-1: which directions
-    std::vector<exact::BandFactorization> bands;            ///< 0 … order-1
+    std::vector<BandFactorization> bands;                   ///< 0 … order-1
 
-    /// 2*order-1 directions; band l uses the first 2l+1. Source: section 6 of the paper.
-    static LobeSet shared(int order, const std::vector<exact::Direction<exact::Real>>& directions);
+    /// Those of an order's table: 2*order-1 directions; band l uses the first 2l+1. Source: section 6 of the
+    /// paper.
+    static LobeSet shared(const LobeTable& table);
 
     /// One ring of 2*order-1 lobes that every band uses, all of them: cond_2 at most 10 up to order 20.
     static LobeSet ring(int order);
 
-    /// Lobes of their own for every band, 2l+1 for band l. Source: section 5.
-    static LobeSet per_band(const std::vector<std::vector<exact::Direction<exact::Real>>>& directions);
+    /// Lobes of their own for every band, 2l+1 for band l: the pole, the axes, and those of the tables of
+    /// bands 2, 3, … Source: section 5.
+    static LobeSet per_band(const std::vector<const LobeTable*>& tables);
 
     /// Where the weights of band l begin among those of all bands; for l = order, how many there are.
     int weight_start(int l) const;
 };
 
 /// Operations of the band's sparse product Âᵀ f as it is emitted, counted on its graph.
-graph::Counts factorization_counts(const exact::BandFactorization& band);
+graph::Counts factorization_counts(const BandFactorization& band);
 
 /// ẑ = Âᵀ f, per band.
 graph::Kernel build_factorize(const LobeSet& lobes);

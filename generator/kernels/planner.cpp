@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "graph/passes.hpp"
 #include "kernels/contraction.hpp"
@@ -56,7 +57,7 @@ class SignalBuilder {
 
     Kernel take() {
         kernel_.store(0, kernel_.input(1, 0), 0);
-        return graph::optimize(kernel_);
+        return graph::optimize(std::move(kernel_));
     }
 
   private:
@@ -172,14 +173,17 @@ std::vector<Alternative> alternatives(int order, int l) {
     return all;
 }
 
-Plan cheapest_plan(int order, const Workload& workload) {
-    // The ways of every band, those left out that weigh more than the best of their method and all that
-    // scalars shared with other bands could save.
+Planner::Planner(int order) : order_(order) {
+    for (int l = 1; l < order; ++l) alternatives_.push_back(alternatives(order, l));
+}
+
+/// The ways of every band, those left out that weigh more than the best of their method and all that scalars
+/// shared with other bands could save.
+std::vector<std::vector<BandPlan>> Planner::candidates(const Workload& workload) const {
     constexpr int kMostSaved = 6;
     std::vector<std::vector<BandPlan>> candidates;
-    for (int l = 1; l < order; ++l) {
-        std::vector<Alternative> all = alternatives(order, l);
-        std::erase_if(all, [&](const Alternative& a) { return !is_fit_for(a.plan, order, workload); });
+    for (std::vector<Alternative> all : alternatives_) {
+        std::erase_if(all, [&](const Alternative& a) { return !is_fit_for(a.plan, order_, workload); });
         std::stable_sort(all.begin(), all.end(), [&](const Alternative& a, const Alternative& b) {
             return weighted(a.cost, workload) < weighted(b.cost, workload);
         });
@@ -193,10 +197,20 @@ Plan cheapest_plan(int order, const Workload& workload) {
         // Above the low bands only dense blocks take mirrors.
         if (candidates.back().empty()) candidates.back().push_back({BandMethod::dense, {}});
     }
+    return candidates;
+}
 
+int Planner::weight_of(const Plan& plan, const Workload& workload) {
+    const auto [known, is_new] = costs_.try_emplace(plan);
+    if (is_new) known->second = graph::count_operations(build_plan(order_, plan));
+    return weighted(known->second, workload);
+}
+
+Plan Planner::cheapest(const Workload& workload) {
+    const std::vector<std::vector<BandPlan>> candidates = this->candidates(workload);
     // Low bands together: from one method for all of them that know it, one band at a time is changed while
     // that helps. Higher bands have zxzxz only and share nothing but its angles: each by itself.
-    const auto low_bands = static_cast<std::size_t>(std::min(order - 1, kLargestBandPlannedTogether));
+    const auto low_bands = static_cast<std::size_t>(std::min(order_ - 1, kLargestBandPlannedTogether));
     std::optional<Plan> best;
     int least = 0;
     for (const BandMethod method : {BandMethod::contraction, BandMethod::zxzxz}) {
@@ -206,14 +220,14 @@ Plan cheapest_plan(int order, const Workload& workload) {
                                                 [&](const BandPlan& way) { return way.method == method; });
             plan.push_back(preferred == candidates[band].end() ? candidates[band].front() : *preferred);
         }
-        int reached = weight(build_plan(order, plan), workload);
+        int reached = weight_of(plan, workload);
         for (bool is_better = true; is_better;) {
             is_better = false;
             for (std::size_t band = 0; band < low_bands; ++band) {
                 for (const BandPlan& way : candidates[band]) {
                     Plan changed = plan;
                     changed[band] = way;
-                    const int w = weight(build_plan(order, changed), workload);
+                    const int w = weight_of(changed, workload);
                     if (w >= reached) continue;
                     reached = w;
                     plan = changed;

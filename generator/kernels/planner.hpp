@@ -1,5 +1,7 @@
 #pragma once
 
+#include <compare>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ enum class BandMethod { contraction, direct_contraction, proper_contraction, zxz
 struct BandPlan {
     BandMethod method = BandMethod::contraction;
     BandForms forms;  ///< zxzxz only
+    friend auto operator<=>(const BandPlan&, const BandPlan&) = default;
 };
 
 /// How every band from 1 on is turned: entry l - 1 belongs to band l.
@@ -39,14 +42,32 @@ graph::Kernel build_plan(int order, const Plan& plan);
 /// Whether a plan of an order for a workload may turn a band so.
 bool is_fit_for(const BandPlan& plan, int order, const Workload& workload);
 
-/// The combination of methods whose whole kernel has the least weight, set-up that bands share counted once.
-Plan cheapest_plan(int order, const Workload& workload);
-
 /// One way to turn a band, and what it alone costs (set-up that bands share left out).
 struct Alternative {
     BandPlan plan;
     graph::Cost cost;
 };
 std::vector<Alternative> alternatives(int order, int l);
+
+/// Plans the workloads of an order; what they have in common is built and counted once.
+class Planner {
+  public:
+    explicit Planner(int order);
+
+    /// The combination of methods whose whole kernel has the least weight, set-up that bands share counted
+    /// once.
+    Plan cheapest(const Workload& workload);
+
+  private:
+    std::vector<std::vector<BandPlan>> candidates(const Workload& workload) const;
+    int weight_of(const Plan& plan, const Workload& workload);
+
+    int order_;
+    std::vector<std::vector<Alternative>> alternatives_;  ///< of bands 1 … order-1
+    std::map<Plan, graph::Cost> costs_;                   ///< of the plans that were weighed
+};
+
+/// The same for one workload alone.
+inline Plan cheapest_plan(int order, const Workload& workload) { return Planner(order).cheapest(workload); }
 
 }  // namespace zonal::kernels

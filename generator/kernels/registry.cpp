@@ -4,7 +4,6 @@
 
 #include "graph/counts.hpp"
 #include "graph/passes.hpp"
-#include "kernels/rotations.hpp"
 
 namespace zonal::kernels {
 namespace {
@@ -49,8 +48,8 @@ std::vector<Kernel> per_band_kernels(const LobeSet& lobes, const std::vector<Ker
 
 }  // namespace
 
-std::vector<Kernel> build_order(int order, const OrderLobeSets& lobes) {
-    std::vector<Kernel> kernels = build_rotations(order);
+std::vector<Kernel> build_order(int order, const OrderPlans& plans, const OrderLobeSets& lobes) {
+    std::vector<Kernel> kernels = build_rotations(order, plans);
     const auto append = [&](const std::vector<Kernel>& more) {
         kernels.insert(kernels.end(), more.begin(), more.end());
     };

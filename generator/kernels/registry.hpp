@@ -4,6 +4,7 @@
 
 #include "graph/kernel.hpp"
 #include "kernels/lobes.hpp"
+#include "kernels/rotations.hpp"
 
 namespace zonal::kernels {
 
@@ -20,6 +21,11 @@ struct OrderLobeSets {
 /// Every kernel of an order, optimized, in the order they are emitted: those of `rotate`; lobe kernels where
 /// there are lobes, and of per-band lobes those that cost less; and the ring's as variant `stable`. Adding a
 /// method is one line here.
-std::vector<graph::Kernel> build_order(int order, const OrderLobeSets& lobes);
+std::vector<graph::Kernel> build_order(int order, const OrderPlans& plans, const OrderLobeSets& lobes);
+
+/// The same where the plans are of no further interest.
+inline std::vector<graph::Kernel> build_order(int order, const OrderLobeSets& lobes) {
+    return build_order(order, plan_order(order), lobes);
+}
 
 }  // namespace zonal::kernels

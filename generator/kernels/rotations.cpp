@@ -70,7 +70,7 @@ Kernel build_blocks(int order) {
     for (int l = 0; l < order; ++l)
         for (int k = 0; k < static_cast<int>(all[l].size()); ++k)
             kernel.store(index++, all[l][k], l, std::abs(k % (2 * l + 1) - l));
-    return graph::optimize(kernel);
+    return graph::optimize(std::move(kernel));
 }
 
 bool is_same_work(const Kernel& a, const Kernel& b) {
@@ -85,12 +85,12 @@ OrderPlans plan_order(int order) {
     // Up to order 3 mirrors cost one channel nothing and three a few instructions: every form takes them, so that
     // what holds for one V holds for all.
     const bool takes_mirrors = order <= 3;
-    return {cheapest_plan(order, {1, takes_mirrors}), cheapest_plan(order, {3, takes_mirrors}),
-            cheapest_plan(order, {kMany, takes_mirrors})};
+    Planner planner(order);
+    return {planner.cheapest({1, takes_mirrors}), planner.cheapest({3, takes_mirrors}),
+            planner.cheapest({kMany, takes_mirrors})};
 }
 
-std::vector<Kernel> build_rotations(int order) {
-    const OrderPlans plans = plan_order(order);
+std::vector<Kernel> build_rotations(int order, const OrderPlans& plans) {
     Kernel one = planned("rotate", "The cheapest exact rotation of one vector.", order, plans.one);
     const Kernel channels = planned(
         "rotate_channels", "The cheapest exact rotation of three vectors at once.", order, plans.channels);

@@ -21,6 +21,10 @@ OrderPlans plan_order(int order);
 /// - `prepare`, `apply`: the cheapest for many vectors of one rotation, in its two halves;
 /// - `rotate_accurate`: dense blocks, built and applied;
 /// - `blocks`: dense blocks.
-std::vector<graph::Kernel> build_rotations(int order);
+std::vector<graph::Kernel> build_rotations(int order, const OrderPlans& plans);
+
+inline std::vector<graph::Kernel> build_rotations(int order) {
+    return build_rotations(order, plan_order(order));
+}
 
 }  // namespace zonal::kernels

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <vector>
 
 #include "kernels/angle_powers.hpp"
@@ -20,6 +21,7 @@ enum class PartForm {
 struct BandForms {
     PartForm even = PartForm::transform;
     PartForm odd = PartForm::transform;
+    friend auto operator<=>(const BandForms&, const BandForms&) = default;
 };
 
 /// R = Rz(α) Ry(β) Rz(γ) without angles and without a pole: the cosines and sines of the multiples of all

@@ -11,7 +11,7 @@
 #include "kernels/lobes.hpp"
 #include "kernels/planner.hpp"
 #include "kernels/rotations.hpp"
-#include "lobe_table.hpp"
+#include "lobes/lobe_table.hpp"
 #include "paper/published.hpp"
 #include "paper/random_sparsity.hpp"
 #include "search/expansion.hpp"
@@ -23,7 +23,7 @@ namespace {
 constexpr int kLargestOrderOfAllSets = 10;
 
 std::optional<LobeTable> find_table(const std::filesystem::path& tables, const LobeUse& use) {
-    const std::filesystem::path path = tables / use.table_name();
+    const std::filesystem::path path = tables / use.table_path();
     if (!std::filesystem::exists(path)) return std::nullopt;
     return read_lobe_table(path, use);
 }
@@ -48,7 +48,7 @@ Json paper_multiplications(const published::Multiplications& row) {
 Json our_multiplications(const std::filesystem::path& tables, int order) {
     Json ours{{"sparse", nullptr}, {"factorize", nullptr}, {"rotate_zhf", nullptr}};
     if (const auto table = find_table(tables, LobeUse::order(order))) {
-        const auto lobes = kernels::LobeSet::shared(order, table->directions);
+        const auto lobes = kernels::LobeSet::shared(*table);
         ours["sparse"] = table->nonzeros;
         ours["factorize"] = multiplications_of(graph::optimize(kernels::build_factorize(lobes)));
         ours["rotate_zhf"] = multiplications_of(graph::optimize(kernels::build_rotate_zhf(lobes)));
@@ -72,7 +72,7 @@ Json lobes_of_functions(const std::filesystem::path& tables) {
     for (const std::vector<int>& paper : published::kLobesOfFunctions) {
         Json row{{"band", l}, {"paper", paper}, {"ours", nullptr}, {"ratio", nullptr}};
         if (const auto table = find_table(tables, LobeUse::band(l))) {
-            const exact::BandFactorization band = exact::factorize_band(l, table->directions);
+            const BandFactorization& band = table->bands.front();
             row["ours"] = Json::array();
             for (int m = 0; m <= 2 * l; ++m) {
                 const auto lobes = band.a_hat.row(m);

@@ -1,5 +1,6 @@
 #include "paper/random_sparsity.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,6 @@
 #include "search/angle_model.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "exact/spherical_harmonics.hpp"

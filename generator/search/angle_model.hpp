@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 #include "search/pattern.hpp"
 #include "search/problem.hpp"
 

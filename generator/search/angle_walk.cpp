@@ -1,5 +1,8 @@
 #include "search/angle_walk.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "search/candidates.hpp"
 
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <numeric>
 

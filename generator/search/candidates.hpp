@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 #include "search/random.hpp"
 
 namespace zonal::search {

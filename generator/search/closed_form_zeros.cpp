@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <numeric>
 
 #include "exact/angles.hpp"
@@ -67,7 +66,7 @@ std::vector<Angle> legendre_zero_angles(int l, int m) {
 Angle fraction_of_pi(int k, int n) {
     const int common = std::gcd(k, n);
     const int numerator = k / common, denominator = n / common;
-    const exact::Real value = boost::math::constants::pi<exact::Real>() * numerator / denominator;
+    const exact::Real value = exact::pi() * numerator / denominator;
     if (numerator == 0) return {exact::Real{0}, "0"};
     const std::string times_pi = numerator == 1 ? "pi" : fmt::format("{}*pi", numerator);
     return {value, denominator == 1 ? times_pi : fmt::format("{}/{}", times_pi, denominator)};

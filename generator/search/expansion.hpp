@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 
 namespace zonal::search {
 

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -228,8 +229,8 @@ class Island {
         // As a table has them: what is emitted depends on the order.
         Measured measured{confirm(problem_, in_reading_order(with_angles(*grid_, lobes))), 0, 0, set};
         if (!measured.solution.score.is_allowed(settings_->objective)) return;
-        measured.instructions = (*emitted_cost_)(
-            exact::factorize_band(problem_.highest_band(), directions_of(measured.solution.lobes)));
+        measured.instructions =
+            (*emitted_cost_)(factorize_band(problem_.highest_band(), directions_of(measured.solution.lobes)));
         measured.cost = cost_of(measured.solution, measured.instructions, settings_->objective);
         if (measured.cost < best_.cost) best_ = std::move(measured);
     }

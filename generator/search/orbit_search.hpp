@@ -3,14 +3,14 @@
 #include <atomic>
 #include <functional>
 
-#include "exact/factorization.hpp"
+#include "lobes/factorization.hpp"
 #include "search/orbits.hpp"
 #include "search/search.hpp"
 
 namespace zonal::search {
 
 /// Instructions of the emitted product by a band's Âᵀ.
-using EmittedCost = std::function<int(const exact::BandFactorization&)>;
+using EmittedCost = std::function<int(const BandFactorization&)>;
 
 /// How closed sets are sought. The seed, limits, islands, pool, cap on the condition and its weight are those
 /// of every search.

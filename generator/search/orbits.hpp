@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 #include "search/pool.hpp"
 
 namespace zonal::search {

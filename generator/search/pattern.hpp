@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 #include "search/problem.hpp"
 
 namespace zonal::search {

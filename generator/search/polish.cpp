@@ -3,8 +3,8 @@
 
 #include "search/polish.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
 #include "exact/spherical_harmonics.hpp"
@@ -23,10 +23,9 @@ std::vector<Real> residuals_of(const Problem& problem, const AngledSet& lobes, c
     const auto directions = directions_of(lobes);
     std::vector<exact::Matrix<Real>> a_hats;
     for (const int l : problem.bands) {
-        const Eigen::FullPivLU<exact::Matrix<Real>> lu(
-            exact::band_matrix<Real>(l, exact::lobes_of_band(l, directions)));
-        if (!lu.isInvertible()) return {};
-        a_hats.push_back(lu.inverse());
+        const auto a_hat = exact::inverse(exact::band_matrix<Real>(l, exact::lobes_of_band(l, directions)));
+        if (!a_hat) return {};
+        a_hats.push_back(*a_hat);
     }
     std::vector<Real> residuals;
     for (const Relation& relation : pattern)
@@ -47,7 +46,7 @@ constexpr double kStill = 1e-6;
 
 /// theta in [0, pi/2], phi in [0, 2 pi), for the lobe or its antipode.
 AngledLobe wrapped(AngledLobe lobe) {
-    const Real pi = boost::math::constants::pi<Real>();
+    const Real& pi = exact::pi();
     const auto set = [](Angle& angle, const Real& value) {
         if (value == angle.value) return;
         angle.value = value;

@@ -7,6 +7,7 @@
 
 #include "search/refine.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>

@@ -1,5 +1,6 @@
 #include "search/score.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -81,8 +82,7 @@ Score score(const Problem& problem, const CandidateGrid& grid, const LobeSet& lo
         const int size = 2 * l + 1;
         exact::Matrix<double> columns(size, size);  // Y transposed, so that a lobe is contiguous
         for (int d = 0; d < size; ++d) grid.evaluate(l, lobes[d], columns.col(d).data());
-        const Eigen::JacobiSVD<exact::Matrix<double>> svd(columns);
-        const auto& singular_values = svd.singularValues();
+        const exact::Vector<double> singular_values = exact::singular_values(columns);
         const double largest = singular_values(0), smallest = singular_values(size - 1);
         if (!(smallest > 1e-7 * largest)) return Score{};
         const exact::Matrix<double> a_hat = columns.transpose().inverse();
@@ -94,10 +94,10 @@ Score score(const Problem& problem, const CandidateGrid& grid, const LobeSet& lo
 Score exact_score(const Problem& problem, const std::vector<exact::Direction<exact::Real>>& directions) {
     Score total = nothing_yet();
     for (const int l : problem.bands) {
-        const exact::BandFactorization band = exact::factorize_band(l, directions);
+        const BandFactorization band = factorize_band(l, directions);
         if (!std::isfinite(band.condition)) return Score{};
-        const Eigen::JacobiSVD<exact::Matrix<double>> svd(band.a_hat.cast<double>());
-        add_band(total, l, band_cost(band.a_hat), band.condition, svd.singularValues()(0));
+        add_band(total, l, band_cost(band.a_hat), band.condition,
+                 exact::singular_values(band.a_hat.cast<double>())(0));
     }
     return total;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/factorization.hpp"
+#include "lobes/factorization.hpp"
 #include "search/candidates.hpp"
 #include "search/problem.hpp"
 

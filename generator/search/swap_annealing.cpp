@@ -5,6 +5,7 @@
 
 #include "search/swap_annealing.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 

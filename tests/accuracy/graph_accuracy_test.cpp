@@ -1,9 +1,10 @@
 // Every kernel of every order, 2 … 20, run from its graph: float and double against the oracle, within the
 // published bounds and the contract. The full set of rotations is what zonal-measure-bounds ran; here are
 // fewer at high orders.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "order_kernels.hpp"
+#include "support/built_order.hpp"
 #include "support/graph_kernels.hpp"
 
 namespace zonal {
@@ -12,7 +13,7 @@ namespace {
 template <class T>
 void expect_within_bounds(int order) {
     constexpr bool kIsFloat = std::is_same_v<T, float>;
-    const OrderKernels kernels = build_order_kernels(order, {});
+    const OrderKernels& kernels = built_order(order);
     std::map<std::string, double> excess;
     for (const auto& [name, bound] : kernels.bounds) excess[name] = std::stod(bound.excess_text);
     const int random_count = order <= 10 ? 300 : 30;
@@ -44,7 +45,8 @@ void expect_within_bounds(int order) {
 class GraphAccuracy : public testing::TestWithParam<int> {};
 TEST_P(GraphAccuracy, float_is_within_bounds) { expect_within_bounds<float>(GetParam()); }
 TEST_P(GraphAccuracy, double_is_within_bounds) { expect_within_bounds<double>(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(orders, GraphAccuracy, testing::Range(2, 21));
+INSTANTIATE_TEST_SUITE_P(orders, GraphAccuracy, testing::Range(2, 21),
+                         [](const auto& order) { return fmt::format("order_{}", order.param); });
 
 }  // namespace
 }  // namespace zonal

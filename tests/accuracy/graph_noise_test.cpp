@@ -1,8 +1,9 @@
 // What noise in R costs at the worst, over noise and signal: every kernel against its published excess and
 // the contract, and the ways to read band 2 from R S Rᵀ that generator/kernels/README.md compares.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "order_kernels.hpp"
+#include "support/built_order.hpp"
 #include "support/graph_kernels.hpp"
 #include "support/worst_noise.hpp"
 
@@ -29,7 +30,7 @@ class GraphNoise : public testing::TestWithParam<int> {};
 TEST_P(GraphNoise, costs_what_the_contract_grants) {
     const int order = GetParam();
     const double granted = (order - 1) / 2.0;
-    const OrderKernels kernels = build_order_kernels(order, {});
+    const OrderKernels& kernels = built_order(order);
     for (const auto& kernel : graph_contestants<double>(order, kernels.kernels, {})) {
         const std::string& name = kernel.name;
         const double worst = worst_of_rotations(order, kernel, order <= 5 ? 20 : 4);
@@ -41,10 +42,11 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
         EXPECT_LE(worst, granted * (1 + kDifferences)) << name;
     }
 }
-INSTANTIATE_TEST_SUITE_P(orders, GraphNoise, testing::Range(2, 9));
+INSTANTIATE_TEST_SUITE_P(orders, GraphNoise, testing::Range(2, 9),
+                         [](const auto& order) { return fmt::format("order_{}", order.param); });
 
 TEST(NoiseOfRotatePolynomial, of_order_4_costs_band_3_more_than_the_contract_grants) {
-    const OrderKernels kernels = build_order_kernels(4, {});
+    const OrderKernels& kernels = built_order(4);
     for (const auto& kernel : graph_contestants<double>(4, kernels.kernels, {})) {
         if (kernel.name != "rotate_polynomial") continue;
         std::mt19937_64 random(5);
@@ -83,7 +85,7 @@ accuracy::Contestant<double> contraction(std::function<double(const double* f)> 
 }
 
 TEST(NoiseOfRotate, of_order_3_costs_three_over_root_two) {
-    const OrderKernels kernels = build_order_kernels(3, {});
+    const OrderKernels& kernels = built_order(3);
     for (const auto& kernel : graph_contestants<double>(3, kernels.kernels, {})) {
         if (kernel.name != "rotate") continue;
         EXPECT_NEAR(worst_of_rotations(3, kernel, 200), 3 / std::sqrt(2.0), 0.02);

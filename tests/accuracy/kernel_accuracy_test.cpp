@@ -1,10 +1,13 @@
 // Every compiled kernel that turns a signal against the pointwise oracle, float and double: the numbers the
 // project promises. Orders above those compiled: graph_accuracy_test.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "support/accuracy.hpp"
 #include "support/banner.hpp"
-#include "support/kernels.hpp"
+#include "support/compiled_kernels.hpp"
 #include "support/many_turns.hpp"
 
 namespace zonal {
@@ -38,82 +41,70 @@ void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>&
     }
 }
 
-template <int N, class T>
-std::vector<accuracy::Contestant<T>> compiled_kernels() {
-    std::vector<accuracy::Contestant<T>> kernels;
-    const auto add = [&](const std::string& name, auto rotate) {
-        const accuracy::Contestant<T> kernel{name, rotate, banner::bound(N, name).excess};
-        const bool takes_mirrors = name == "rotate_accurate" || Order<N>::kTakesMirrors;
-        kernels.push_back(takes_mirrors ? kernel : accuracy::with_mirrors(N, kernel));
+/// Every compiled kernel that turns a signal.
+template <class T>
+std::vector<accuracy::Contestant<T>> contestants(const CompiledOrder& compiled) {
+    std::vector<accuracy::Contestant<T>> all;
+    const RotateKernels<T>& kernels = compiled.in<T>();
+    const auto add = [&](const std::string& name, auto rotate, bool takes_mirrors) {
+        if constexpr (std::is_pointer_v<decltype(rotate)>)
+            if (rotate == nullptr) return;
+        const accuracy::Contestant<T> kernel{name, rotate, banner::bound(compiled.order, name).excess};
+        all.push_back(takes_mirrors ? kernel : accuracy::with_mirrors(compiled.order, kernel));
     };
-    add("rotate", [](const T* R, const T* f, T* out) { Order<N>::rotate(R, f, out); });
-    add("apply", [](const T* R, const T* f, T* out) {
-        T scalars[Order<N>::kScalars];
-        Order<N>::prepare(R, scalars);
-        Order<N>::apply(scalars, f, out);
-    });
-    add("rotate_accurate", [](const T* R, const T* f, T* out) { Order<N>::rotate_accurate(R, f, out); });
-    return kernels;
+    add("rotate", kernels.rotate, compiled.takes_mirrors);
+    const auto halves = [&kernels, scalars = std::vector<T>(compiled.scalars)](const T* R, const T* f,
+                                                                               T* out) mutable {
+        kernels.prepare(R, scalars.data());
+        kernels.apply(scalars.data(), f, out);
+    };
+    add("apply", halves, compiled.takes_mirrors);
+    add("rotate_accurate", kernels.rotate_accurate, true);
+    // Mirrors are its own: it is given them as they are.
+    if (compiled.has_polynomial()) add("rotate_polynomial", kernels.rotate_polynomial, true);
+    for (const LobeVariant& lobes : compiled.lobes)
+        if (lobes.layout != LobeVariant::Layout::per_band)
+            add(lobes.prefix + "rotate_zhf", lobes.in<T>().rotate_zhf, true);
+    return all;
+}
+
+std::vector<int> orders() {
+    std::vector<int> all;
+    for (const CompiledOrder& compiled : compiled_orders()) all.push_back(compiled.order);
+    return all;
+}
+
+class KernelAccuracy : public testing::TestWithParam<int> {};
+
+TEST_P(KernelAccuracy, float_is_within_its_bounds) {
+    expect_within_bounds<float>(GetParam(), contestants<float>(compiled_order(GetParam())));
+}
+
+TEST_P(KernelAccuracy, double_is_within_its_bounds) {
+    expect_within_bounds<double>(GetParam(), contestants<double>(compiled_order(GetParam())));
 }
 
 /// Errors that few turns of a million have: at orders 2 and 3 they are larger by half than those of
 /// thousands.
-template <int N>
-void expect_rare_errors_within_bounds() {
-    const auto kernels = compiled_kernels<N, float>();
-    const auto worst = accuracy::worst_of_many_turns(N, kernels, compiled_kernels<N, double>().back(),
-                                                     N <= 3 ? 2000000 : 20000, kSeed + N);
+TEST_P(KernelAccuracy, rare_errors_are_within_bounds) {
+    const int order = GetParam();
+    auto kernels = contestants<float>(compiled_order(order));
+    std::erase_if(kernels, [](const auto& kernel) {
+        return kernel.name != "rotate" && kernel.name != "apply" && kernel.name != "rotate_accurate";
+    });
+    ASSERT_EQ(kernels.size(), 3u);
+    const auto judges = contestants<double>(compiled_order(order));
+    const auto judge = std::find_if(judges.begin(), judges.end(),
+                                    [](const auto& kernel) { return kernel.name == "rotate_accurate"; });
+    const auto worst =
+        accuracy::worst_of_many_turns(order, kernels, *judge, order <= 3 ? 2000000 : 20000, kSeed + order);
     for (const auto& kernel : kernels)
-        EXPECT_LE(worst.at(kernel.name), banner::bound(N, kernel.name).float_bound)
-            << kernel.name << ", order " << N;
+        EXPECT_LE(worst.at(kernel.name), banner::bound(order, kernel.name).float_bound)
+            << kernel.name << ", order " << order;
 }
 
-#define ZONAL_ACCURACY_TESTS(N)                                          \
-    TEST(KernelAccuracy, order_##N##_float_is_within_its_bounds) {       \
-        expect_within_bounds<float>(N, compiled_kernels<N, float>());    \
-    }                                                                    \
-    TEST(KernelAccuracy, order_##N##_double_is_within_its_bounds) {      \
-        expect_within_bounds<double>(N, compiled_kernels<N, double>());  \
-    }                                                                    \
-    TEST(KernelAccuracy, rare_errors_of_order_##N##_are_within_bounds) { \
-        expect_rare_errors_within_bounds<N>();                           \
-    }
-ZONAL_FOR_EACH_ORDER(ZONAL_ACCURACY_TESTS)
-
-/// Mirrors are its own: it is given them as they are.
-template <int N, class T>
-std::vector<accuracy::Contestant<T>> polynomial_kernel() {
-    return {{"rotate_polynomial",
-             [](const T* R, const T* f, T* out) { PolynomialOrder<N>::rotate(R, f, out); },
-             banner::bound(N, "rotate_polynomial").excess}};
-}
-
-#define ZONAL_POLYNOMIAL_ACCURACY_TESTS(N)                                    \
-    TEST(KernelAccuracy, polynomial_of_order_##N##_float_is_within_bounds) {  \
-        expect_within_bounds<float>(N, polynomial_kernel<N, float>());        \
-    }                                                                         \
-    TEST(KernelAccuracy, polynomial_of_order_##N##_double_is_within_bounds) { \
-        expect_within_bounds<double>(N, polynomial_kernel<N, double>());      \
-    }
-ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_POLYNOMIAL_ACCURACY_TESTS)
-
-template <int N, class T>
-std::vector<accuracy::Contestant<T>> lobe_kernels() {
-    return {
-        {"rotate_zhf", [](const T* R, const T* f, T* out) { LobeOrder<N>::rotate_zhf(R, f, out); },
-         banner::bound(N, "rotate_zhf").excess},
-        {"stable::rotate_zhf", [](const T* R, const T* f, T* out) { StableOrder<N>::rotate_zhf(R, f, out); },
-         banner::bound(N, "stable::rotate_zhf").excess}};
-}
-
-#define ZONAL_LOBE_ACCURACY_TESTS(N)                                      \
-    TEST(KernelAccuracy, lobes_of_order_##N##_float_are_within_bounds) {  \
-        expect_within_bounds<float>(N, lobe_kernels<N, float>());         \
-    }                                                                     \
-    TEST(KernelAccuracy, lobes_of_order_##N##_double_are_within_bounds) { \
-        expect_within_bounds<double>(N, lobe_kernels<N, double>());       \
-    }
-ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_LOBE_ACCURACY_TESTS)
+INSTANTIATE_TEST_SUITE_P(orders, KernelAccuracy, testing::ValuesIn(orders()),
+                         [](const auto& order) { return fmt::format("order_{}", order.param); });
 
 }  // namespace
 }  // namespace zonal

@@ -40,7 +40,7 @@ for ((round = ${4:-1};; ++round)); do
     use=--${name%%[0-9]*} number=$((10#${name#"${name%%[0-9]*}"}))
     time=$((seconds * number / 10 + 5))
     table=$best/$name.json
-    [ -e "$table" ] || cp "generator/tables/$name.json" "$table"
+    [ -e "$table" ] || { folder=shared; [ "$use" = --band ] && folder=band; cp "generator/tables/$folder/$name.json" "$table"; }
     some=${weights[$((round % 3))]}
     start=$table
     if [ $((round % 2)) -eq 0 ]; then

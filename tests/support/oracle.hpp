@@ -6,8 +6,8 @@
 namespace zonal::oracle {
 
 /// The judge of every kernel: pointwise evaluation of f(Rᵀω) in long double and quadrature. It knows
-/// spherical harmonics by their definition, with angles, and shares no code with the generator or the
-/// runtime.
+/// spherical harmonics by their definition, P_l^m(cos θ) times cos mφ or sin mφ, and shares no code with the
+/// generator or the runtime.
 using Real = long double;
 using Vector3 = std::array<Real, 3>;
 using Matrix3 = std::array<Real, 9>;  ///< row-major
@@ -36,12 +36,14 @@ class Rotation {
     std::vector<std::vector<Real>> blocks(const Matrix3& rotation) const;
 
   private:
-    struct Node {
-        Vector3 direction;
-        std::vector<Real> weighted_basis;
+    /// The nodes of one z, the weight of which is in P_l^m, by l and then m = 0 … l.
+    struct Ring {
+        std::vector<Vector3> directions;
+        std::vector<Real> weighted_legendre;
     };
     int order_;
-    std::vector<Node> nodes_;
+    std::vector<Ring> rings_;
+    std::vector<Real> cosines_, sines_;  ///< times the weight in φ; by node of a ring, then m = 0 … N-1
 };
 
 }  // namespace zonal::oracle

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <stdexcept>
 
 #include "exact/angles.hpp"
@@ -11,7 +10,7 @@ namespace {
 
 const Real kAngleTolerance{"1e-48"};
 
-const Real kPi = boost::math::constants::pi<Real>();
+const Real kPi = pi();
 
 TEST(ClosedForm, reads_the_forms_that_tables_use) {
     EXPECT_EQ(evaluate_closed_form("0"), 0);

@@ -7,8 +7,6 @@ namespace {
 
 const Real kHarmonicTolerance{"1e-47"};
 
-Real pi() { return boost::math::constants::pi<Real>(); }
-
 /// The unit direction (2, 3, 6)/7: rational, and no two components alike.
 Direction<Real> asymmetric() { return {Real(2) / 7, Real(3) / 7, Real(6) / 7}; }
 

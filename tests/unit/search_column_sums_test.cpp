@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "exact/real.hpp"
+#include "exact/matrix.hpp"
 #include "search/column_sums.hpp"
 #include "search/random.hpp"
 

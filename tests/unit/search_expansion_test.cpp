@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
 #include "exact/angles.hpp"
@@ -20,7 +19,7 @@ double distance_to_identity(int l, const Expansion& expansion) {
     for (std::size_t d = 0; d < expansion.angles.size(); d += 2)
         lobes.push_back(exact::direction_of(expansion.angles[d], expansion.angles[d + 1]));
     const int size = 2 * l + 1;
-    const Real n = sqrt(4 * boost::math::constants::pi<Real>() / size);
+    const Real n = sqrt(4 * exact::pi() / size);
     const Matrix<Real> product = n * expansion.weights.cast<Real>() * exact::band_matrix<Real>(l, lobes);
     return static_cast<double>((product - Matrix<Real>::Identity(size, size)).norm());
 }

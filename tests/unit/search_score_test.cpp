@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
 #include "search/closed_form_zeros.hpp"

@@ -1,0 +1,50 @@
+#include "lobes/lobe_use.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace zonal {
+namespace {
+
+constexpr std::array<std::pair<TableRole, const char*>, 4> kRoles{
+    {{TableRole::shared, "shared"},
+     {TableRole::rotate_zhf, "rotate_zhf"},
+     {TableRole::band, "band"},
+     {TableRole::band_mirrored, "band_mirrored"}}};
+
+bool is_of_order(TableRole role) { return role == TableRole::shared || role == TableRole::rotate_zhf; }
+
+}  // namespace
+
+std::string name_of(TableRole role) { return kRoles[static_cast<std::size_t>(role)].second; }
+
+std::optional<TableRole> role_named(const std::string& name) {
+    for (const auto& [role, known] : kRoles)
+        if (name == known) return role;
+    return std::nullopt;
+}
+
+LobeUse LobeUse::order(int n, TableRole role) {
+    LobeUse use{role, "order", n, {}};
+    for (int l = 0; l < n; ++l) use.bands.push_back(l);
+    return use;
+}
+
+LobeUse LobeUse::band(int l, TableRole role) { return {role, "band", l, {l}}; }
+
+bool LobeUse::may_be(TableRole other) const { return is_of_order(role) == is_of_order(other); }
+
+std::filesystem::path LobeUse::table_path() const {
+    return std::filesystem::path(name_of(role)) / fmt::format("{}{:02d}.json", field, value);
+}
+
+std::string LobeUse::options() const {
+    const char* const more = role == TableRole::rotate_zhf      ? " --for rotate_zhf"
+                             : role == TableRole::band_mirrored ? " --mirrors 1"
+                                                                : "";
+    return fmt::format("--{} {}{}", field, value, more);
+}
+
+}  // namespace zonal
