@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/built_order.hpp"
+#include "support/case_count.hpp"
 #include "support/graph_kernels.hpp"
 #include "support/worst_noise.hpp"
 
@@ -33,7 +34,8 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
     const OrderKernels& kernels = built_order(order);
     for (const auto& kernel : graph_contestants<double>(order, kernels.kernels, {})) {
         const std::string& name = kernel.name;
-        const double worst = worst_of_rotations(order, kernel, order <= 5 ? 20 : 4);
+        const auto rotations = static_cast<int>(cases::some_of(order <= 5 ? 20 : 4));
+        const double worst = worst_of_rotations(order, kernel, rotations);
         EXPECT_LE(worst, std::stod(kernels.bounds.at(name).excess_text)) << name;
         const bool is_shifted =
             name == "rotate_polynomial" || (order == 3 && (name == "rotate" || name == "rotate_channels"));

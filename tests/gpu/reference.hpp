@@ -20,7 +20,8 @@ struct ReferenceKernel {
     int input_size = 0;  ///< signal values
     int output_size = 0;
     void (*run)(const float* rotation, const float* input, float* output) = nullptr;
-    /// Null for kernels of a rotation alone.
+    /// Of `rotate` alone, which does something else for several channels: all others do for each channel what
+    /// they do for one.
     void (*run_channels)(const float* rotation, const Channels* input, Channels* output) = nullptr;
 
     bool has_signal() const { return input_size > 0; }

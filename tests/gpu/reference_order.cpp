@@ -32,22 +32,20 @@ namespace order = ::zonal_unfused::ZONAL_JOIN(order, ZONAL_GPU_ORDER);
 constexpr int N = ZONAL_GPU_ORDER, kSize = N * N;
 
 // A kernel of a rotation and a signal, of a rotation, of a signal.
-#define ZONAL_TURN(place, kernel, scalars)                                                                 \
-    {                                                                                                      \
-        .rotation_size = scalars, .input_size = kSize, .output_size = kSize,                               \
-        .run = [](const float* R, const float* f, float* out) { place::kernel(R, f, out); },               \
-        .run_channels = [](const float* R, const Channels* f, Channels* out) { place::kernel(R, f, out); } \
+#define ZONAL_TURN(place, kernel, scalars)                                                  \
+    {                                                                                       \
+        .rotation_size = scalars, .input_size = kSize, .output_size = kSize,                \
+        .run = [](const float* R, const float* f, float* out) { place::kernel(R, f, out); } \
     }
 #define ZONAL_OF_ROTATION(place, kernel, size)                                         \
     {                                                                                  \
         .rotation_size = 9, .output_size = size,                                       \
         .run = [](const float* R, const float*, float* out) { place::kernel(R, out); } \
     }
-#define ZONAL_OF_SIGNAL(place, kernel, from, to)                                                        \
-    {                                                                                                   \
-        .input_size = from, .output_size = to,                                                          \
-        .run = [](const float*, const float* in, float* out) { place::kernel(in, out); },               \
-        .run_channels = [](const float*, const Channels* in, Channels* out) { place::kernel(in, out); } \
+#define ZONAL_OF_SIGNAL(place, kernel, from, to)                                         \
+    {                                                                                    \
+        .input_size = from, .output_size = to,                                           \
+        .run = [](const float*, const float* in, float* out) { place::kernel(in, out); } \
     }
 
 ReferenceKernel named(const std::string& name, ReferenceKernel kernel) {
@@ -62,6 +60,9 @@ std::vector<ReferenceKernel> kernels() {
         named("apply", ZONAL_TURN(order, apply, order::kScalars)),
         named("rotate_accurate", ZONAL_TURN(order, rotate_accurate, 9)),
         named("blocks", ZONAL_OF_ROTATION(order, blocks, N * (4 * N * N - 1) / 3)),
+    };
+    all.front().run_channels = [](const float* R, const Channels* f, Channels* out) {
+        order::rotate(R, f, out);
     };
 #if ZONAL_GPU_ORDER == 4
     all.push_back(named("rotate_polynomial", ZONAL_TURN(order, rotate_polynomial, 9)));

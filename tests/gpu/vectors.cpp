@@ -69,6 +69,20 @@ Vectors test_vectors(int order, const ReferenceKernel& kernel, int channels) {
     return vectors;
 }
 
+namespace {
+
+void run_each_channel(const ReferenceKernel& kernel, const float* R, const std::vector<Channels>& in,
+                      std::vector<Channels>& out) {
+    std::vector<float> one(in.size()), result(out.size());
+    for (float Channels::*channel : {&Channels::r, &Channels::g, &Channels::b}) {
+        for (std::size_t i = 0; i < in.size(); ++i) one[i] = in[i].*channel;
+        kernel.run(R, one.data(), result.data());
+        for (std::size_t i = 0; i < out.size(); ++i) out[i].*channel = result[i];
+    }
+}
+
+}  // namespace
+
 std::vector<float> expected_results(const ReferenceKernel& kernel, const Vectors& vectors, int channels) {
     std::vector<float> results(static_cast<std::size_t>(vectors.count) * kernel.output_size * channels);
     std::vector<Channels> in(kernel.input_size), out(kernel.output_size);
@@ -81,7 +95,10 @@ std::vector<float> expected_results(const ReferenceKernel& kernel, const Vectors
             continue;
         }
         for (std::size_t i = 0; i < in.size(); ++i) in[i] = {f[3 * i], f[3 * i + 1], f[3 * i + 2]};
-        kernel.run_channels(R, in.data(), out.data());
+        if (kernel.run_channels != nullptr)
+            kernel.run_channels(R, in.data(), out.data());
+        else
+            run_each_channel(kernel, R, in, out);
         for (const Channels& value : out) {
             *result++ = value.r;
             *result++ = value.g;

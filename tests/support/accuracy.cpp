@@ -76,21 +76,22 @@ std::vector<Problem> problems(int order, int random_count, int thinning, std::ui
         const bool is_noisy = name.starts_with("orthonormal only");
         all.push_back({name, rotation, std::move(signal), is_noisy, name == kHardSignal});
     };
-    for (int k = 0; k < cases::some_of(random_count); ++k) {
+    for (int k = 0; k < random_count; ++k) {
         const cases::Matrix rotation = cases::random_rotation(random);
         add("random rotation", rotation, cases::random_signal(order, random));
     }
     std::map<std::string, int> seen;
-    const bool is_reduced = cases::some_of(100) < 100;
     for (const cases::Case& hard : cases::hard_rotations<T>(random)) {
-        const auto always_taken = cases::some_of(order <= 10 ? 100 : 33);
+        const int always_taken = order <= 10 ? 100 : 33;
         const int number = seen[hard.name]++;
-        if (number >= always_taken && (is_reduced || number % thinning != 0)) continue;
+        if (number >= always_taken && number % thinning != 0) continue;
         add(hard.name, hard.rotation, cases::random_signal(order, random));
     }
     for (const std::vector<double>& f : cases::hard_signals(order, random))
-        for (int k = 0; k < cases::some_of(thinning == 1 ? 20 : 3); ++k)
+        for (int k = 0; k < (thinning == 1 ? 20 : 3); ++k)
             add(kHardSignal, cases::random_rotation(random), f);
+    std::map<std::string, int> met;
+    std::erase_if(all, [&](const Problem& problem) { return !cases::takes(met[problem.name]++); });
     return all;
 }
 

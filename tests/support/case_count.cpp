@@ -26,4 +26,6 @@ int divisor() {
 
 std::int64_t some_of(std::int64_t all) { return std::max<std::int64_t>(1, all / divisor()); }
 
+bool takes(std::int64_t number) { return number % divisor() == 0; }
+
 }  // namespace zonal::cases
