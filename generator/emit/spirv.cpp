@@ -19,10 +19,9 @@ using graph::Kind;
 
 /// The banner of a file that holds one form of a kernel.
 std::string banner_of(const Unit& unit, const Kernel& kernel, const SpirvForm& form) {
-    Unit one = unit;
-    one.kernels = {kernel};
+    Unit one{unit.name,      unit.file_stem, unit.command, unit.tables, unit.basis,
+             kernel.sources, {kernel},       {},           unit.bounds};
     one.kernels[0].has_bound &= !form.is_precise;  // bounds are those of fused instructions
-    one.sources = kernel.sources;
     const std::string text = comment(";", banner_lines(one)) + ";\n" + comment(";", purpose_lines(kernel)) +
                              comment(";", precondition_lines(kernel));
     if (!form.is_precise) return text;

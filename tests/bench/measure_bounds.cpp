@@ -21,8 +21,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "order_kernels.hpp"
-#include "output_file.hpp"
+#include "io/output_file.hpp"
+#include "kernels/order_kernels.hpp"
 #include "support/graph_kernels.hpp"
 #include "support/many_turns.hpp"
 #include "support/worst_signal.hpp"
@@ -194,7 +194,7 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
     for (const graph::Kernel& kernel : order.kernels) {
         if (!kernel.has_bound) continue;
         const std::string table =
-            kernel.needs_lobes ? order.turned_source().table.short_hash() : std::string{};
+            kernel.needs_lobes ? order.tables.rotate_zhf->table.short_hash() : std::string{};
         entries.push_back({{"kernel", kernel.full_name()},
                            {"order", n},
                            {"table", table},

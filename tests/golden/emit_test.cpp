@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace {
@@ -57,6 +58,56 @@ TEST(Emit, twice_gives_the_same_bytes_and_those_that_are_committed) {
     EXPECT_FALSE(text.empty());
     EXPECT_EQ(text, read(second / "zonal/order04.hpp"));
     EXPECT_EQ(text, read(fs::path(ZONAL_SOURCE_DIR) / "generated/cpp/zonal/order04.hpp"));
+}
+
+/// Every file under a folder, and its bytes.
+std::map<std::string, std::string> tree(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read(entry.path());
+    return files;
+}
+
+TEST(Emit, several_orders_and_languages_at_once_give_the_bytes_of_one_by_one) {
+    const fs::path together = fresh_folder("together"), apart = fresh_folder("apart");
+    ASSERT_EQ(zonal_gen(fmt::format("emit --orders 3,5 --languages cpp,glsl,wgsl:4,spirv:3 --out '{}'",
+                                    together.string()))
+                  .status,
+              0);
+    for (const auto& [order, language] : std::vector<std::pair<int, std::string>>{
+             {3, "cpp"}, {5, "cpp"}, {3, "glsl"}, {5, "glsl"}, {4, "wgsl"}, {3, "spirv"}})
+        ASSERT_EQ(zonal_gen(fmt::format("emit --order {0} --language {1} --out '{2}/{1}'", order, language,
+                                        apart.string()))
+                      .status,
+                  0);
+    EXPECT_GT(tree(apart).size(), 20u);
+    EXPECT_EQ(tree(together), tree(apart));
+}
+
+TEST(Emit, orders_that_cannot_be_read_are_quoted_with_the_option) {
+    for (const char* orders : {"6-3", "1-4", "3-21", "four", "3,,4", "3-", "''"}) {
+        const Outcome result = zonal_gen(fmt::format("emit --orders {} --languages cpp", orders));
+        EXPECT_NE(result.status, 0) << orders;
+        EXPECT_THAT(result.output, AllOf(HasSubstr("--orders"), HasSubstr("3-6"))) << orders;
+    }
+    const Outcome own = zonal_gen("emit --orders 3 --languages cpp:3+x");
+    EXPECT_EQ(own.status, 1);
+    EXPECT_THAT(own.output, AllOf(HasSubstr("--languages cpp: found 'x'"), HasSubstr("from 2 to 20")));
+}
+
+TEST(Emit, languages_that_cannot_be_emitted_are_named_before_anything_is_written) {
+    const fs::path folder = fresh_folder("languages");
+    const auto complaint_about = [&](const char* arguments) {
+        const Outcome result = zonal_gen(fmt::format("emit {} --out '{}'", arguments, folder.string()));
+        EXPECT_EQ(result.status, 1) << arguments;
+        return result.output;
+    };
+    EXPECT_THAT(complaint_about("--orders 3 --languages cpp,cobol"),
+                AllOf(HasSubstr("--languages: found 'cobol'"), HasSubstr("glsl")));
+    EXPECT_THAT(complaint_about("--orders 3 --languages cpp,glsl,cpp"), HasSubstr("found 'cpp' twice"));
+    EXPECT_THAT(complaint_about("--languages cpp:3,glsl"), HasSubstr("--languages glsl: found no orders"));
+    EXPECT_THAT(complaint_about("--language cpp"), HasSubstr("wanted --order N"));
+    EXPECT_TRUE(fs::is_empty(folder));
 }
 
 TEST(Emit, leaves_nothing_but_the_header) {
@@ -218,9 +269,8 @@ fs::path writer_of_the_committed() {
     const fs::path writer = fresh_folder("writer") / "zonal-gen";
     std::ofstream(writer) << fmt::format(
         "#!/usr/bin/env bash\n"
-        "# emit --order ORDER --language LANGUAGE --out FOLDER\n"
-        "mkdir -p \"$7\" && cd '{}/generated/'\"$5\" &&\n"
-        "find . -name \"order$(printf %02d \"$3\")*\" -exec cp --parents '{{}}' \"$7\" ';'\n",
+        "# emit --languages LANGUAGES --out FOLDER\n"
+        "mkdir -p \"$5\" && cp -r '{}/generated/.' \"$5\"\n",
         ZONAL_SOURCE_DIR);
     fs::permissions(writer, fs::perms::owner_all);
     return writer;

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "order_kernels.hpp"
+#include "kernels/order_kernels.hpp"
 
 namespace zonal {
 
@@ -12,7 +12,7 @@ inline const OrderKernels& built_order(int order) {
     static std::map<int, OrderKernels> built;
     const auto found = built.find(order);
     return found != built.end() ? found->second
-                                : built.emplace(order, build_order_kernels(order, {})).first->second;
+                                : built.emplace(order, build_order_kernels(order)).first->second;
 }
 
 }  // namespace zonal

@@ -1,5 +1,6 @@
-#include "lobe_table.hpp"
+#include "lobes/lobe_table.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,8 +12,8 @@
 #include <map>
 #include <sstream>
 
-#include "exact/angles.hpp"
-#include "user_error.hpp"
+#include "io/user_error.hpp"
+#include "kernels/lobes.hpp"
 
 namespace zonal {
 namespace {
@@ -26,17 +27,15 @@ LobeTable small_table() {
     LobeTable table;
     table.use = LobeUse::order(3);
     table.seed = 7;
-    table.command = "zonal-gen search --order 3 --seed 7 --out generator/tables/order03.json";
-    table.angles = {{"0", "0"},
-                    {"acos(sqrt(1/3))", "pi/4"},
-                    {"acos(sqrt(1/3))", "7*pi/4"},
-                    {"acos(sqrt(1/3))", "5*pi/4"},
-                    {"pi/2", "pi/2"}};
-    for (const auto& [theta, phi] : table.angles) {
-        table.directions.push_back(
-            exact::direction_of(exact::evaluate_closed_form(theta), exact::evaluate_closed_form(phi)));
-    }
-    measure_lobe_table(table);
+    table.command = "zonal-gen search --order 3 --seed 7 --out generator/tables/shared/order03.json";
+    for (const auto& [theta, phi] :
+         std::vector<std::pair<const char*, const char*>>{{"0", "0"},
+                                                          {"acos(sqrt(1/3))", "pi/4"},
+                                                          {"acos(sqrt(1/3))", "7*pi/4"},
+                                                          {"acos(sqrt(1/3))", "5*pi/4"},
+                                                          {"pi/2", "pi/2"}})
+        table.lobes.push_back(Lobe::at(theta, phi));
+    factorize(table);
     return table;
 }
 
@@ -96,9 +95,9 @@ TEST_F(LobeTableFile, what_is_written_is_read_back) {
     EXPECT_EQ(read.nonzeros, 9);
     EXPECT_EQ(read.sha256.size(), 64);
     for (int d = 0; d < 5; ++d) {
-        EXPECT_LT((read.directions[d] - written.directions[d]).norm(), exact::Real{"1e-48"});
-        EXPECT_EQ(read.angles[d].theta, written.angles[d].theta);
-        EXPECT_EQ(read.angles[d].phi, written.angles[d].phi);
+        EXPECT_LT((read.lobes[d].direction - written.lobes[d].direction).norm(), exact::Real{"1e-48"});
+        EXPECT_EQ(read.lobes[d].theta, written.lobes[d].theta);
+        EXPECT_EQ(read.lobes[d].phi, written.lobes[d].phi);
     }
 }
 
@@ -144,7 +143,7 @@ TEST_F(LobeTableFile, another_order_is_refused) {
 
 TEST_F(LobeTableFile, wrong_number_of_directions_is_refused) {
     LobeTable table = small_table();
-    table.directions.pop_back();
+    table.lobes.pop_back();
     write_lobe_table(path_, table);
     EXPECT_THAT(complaint(),
                 AllOf(names_file_and_next_step(), HasSubstr("directions: found 4 entries, wanted 5")));
@@ -152,7 +151,7 @@ TEST_F(LobeTableFile, wrong_number_of_directions_is_refused) {
 
 TEST_F(LobeTableFile, duplicate_lobe_is_refused) {
     LobeTable table = small_table();
-    table.directions[4] = table.directions[1];
+    table.lobes[4] = table.lobes[1];
     write_lobe_table(path_, table);
     EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(),
                                    HasSubstr("directions[4]: found the lobe of directions[1] again")));
@@ -160,7 +159,7 @@ TEST_F(LobeTableFile, duplicate_lobe_is_refused) {
 
 TEST_F(LobeTableFile, antipodal_lobe_is_a_duplicate) {
     LobeTable table = small_table();
-    table.directions[3] = -table.directions[0];
+    table.lobes[3].direction = -table.lobes[0].direction;
     write_lobe_table(path_, table);
     EXPECT_THAT(complaint(),
                 AllOf(names_file_and_next_step(), HasSubstr("directions[3]"), HasSubstr("antipode")));
@@ -168,7 +167,7 @@ TEST_F(LobeTableFile, antipodal_lobe_is_a_duplicate) {
 
 TEST_F(LobeTableFile, direction_that_is_not_unit_is_refused) {
     LobeTable table = small_table();
-    table.directions[2] *= exact::Real{"1.000001"};
+    table.lobes[2].direction *= exact::Real{"1.000001"};
     write_lobe_table(path_, table);
     EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("directions[2]"),
                                    HasSubstr("found squared length 1 + 2e-06"), HasSubstr("unit direction")));
@@ -192,10 +191,8 @@ TEST_F(LobeTableFile, angle_that_cannot_be_read_is_quoted) {
 
 /// Replaces one lobe and measures anew, so that nothing else is wrong with the table.
 LobeTable with_lobe(LobeTable table, int d, const std::string& theta, const std::string& phi) {
-    table.angles[d] = {theta, phi};
-    table.directions[d] =
-        exact::direction_of(exact::evaluate_closed_form(theta), exact::evaluate_closed_form(phi));
-    measure_lobe_table(table);
+    table.lobes[d] = Lobe::at(theta, phi);
+    factorize(table);
     return table;
 }
 
@@ -257,11 +254,51 @@ TEST_F(LobeTableFile, writing_into_a_file_as_if_a_folder_fails_and_leaves_nothin
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
-TEST(LobeUse, names_its_table_by_two_digits) {
-    EXPECT_EQ(LobeUse::order(4).table_name(), "order04.json");
-    EXPECT_EQ(LobeUse::order(12).table_name(), "order12.json");
-    EXPECT_EQ(LobeUse::band(7).table_name(), "band07.json");
-    EXPECT_EQ(LobeUse::order(9).conditioned_table_name(), "conditioned/order09.json");
+TEST_F(LobeTableFile, what_it_is_for_is_read_back) {
+    LobeTable table = small_table();
+    table.use = LobeUse::order(3, TableRole::rotate_zhf);
+    write_lobe_table(path_, table);
+    EXPECT_EQ(read_lobe_table(path_, table.use).use.role, TableRole::rotate_zhf);
+    EXPECT_EQ(read_lobes_to_start_from(path_, LobeUse::order(3)).use.role, TableRole::rotate_zhf);
+}
+
+TEST_F(LobeTableFile, a_table_that_does_not_say_what_it_is_for_is_refused) {
+    edit("  \"for\": \"shared\",\n", "");
+    EXPECT_THAT(complaint(),
+                AllOf(names_file_and_next_step(), HasSubstr("for: found nothing"), HasSubstr("rotate_zhf")));
+}
+
+TEST_F(LobeTableFile, a_table_that_is_for_something_else_is_refused) {
+    edit("\"for\": \"shared\"", "\"for\": \"rotate_zhf\"");
+    EXPECT_THAT(complaint(),
+                AllOf(names_file_and_next_step(), HasSubstr("for: found \"rotate_zhf\", wanted \"shared\"")));
+}
+
+TEST_F(LobeTableFile, a_table_of_an_order_cannot_be_for_a_band) {
+    for (const char* word : {"band", "band_mirrored", "bands"}) {
+        edit("\"for\": \"shared\"", fmt::format("\"for\": \"{}\"", word));
+        EXPECT_THAT(complaint(), AllOf(HasSubstr(fmt::format("for: found \"{}\"", word)),
+                                       HasSubstr("wanted \"shared\" or \"rotate_zhf\"")));
+    }
+}
+
+TEST_F(LobeTableFile, reading_inverts_every_band_once) {
+    write_lobe_table(path_, small_table());
+    const int before = factorized_bands();
+    const LobeTable table = read_lobe_table(path_, LobeUse::order(3));
+    EXPECT_EQ(factorized_bands() - before, 3);
+    ASSERT_EQ(table.bands.size(), 3);
+    EXPECT_EQ(table.bands[2].zeros, 16);
+    kernels::LobeSet::shared(table);
+    EXPECT_EQ(factorized_bands() - before, 3);
+}
+
+TEST(LobeUse, names_its_table_by_what_it_is_for_and_two_digits) {
+    EXPECT_EQ(LobeUse::order(4).table_path(), "shared/order04.json");
+    EXPECT_EQ(LobeUse::order(12).table_path(), "shared/order12.json");
+    EXPECT_EQ(LobeUse::band(7).table_path(), "band/band07.json");
+    EXPECT_EQ(LobeUse::band(7, TableRole::band_mirrored).table_path(), "band_mirrored/band07.json");
+    EXPECT_EQ(LobeUse::order(9, TableRole::rotate_zhf).table_path(), "rotate_zhf/order09.json");
 }
 
 TEST(LobeUse, band_takes_twice_its_number_and_one_lobes) {
@@ -273,7 +310,7 @@ TEST(LobeUse, band_takes_twice_its_number_and_one_lobes) {
 TEST_F(LobeTableFile, table_of_one_band_is_read_back) {
     LobeTable band = small_table();
     band.use = LobeUse::band(2);
-    measure_lobe_table(band);
+    factorize(band);
     write_lobe_table(path_, band);
     const LobeTable read = read_lobe_table(path_, LobeUse::band(2));
     EXPECT_EQ(read.zeros, std::vector<int>{16});
@@ -291,8 +328,8 @@ TEST_F(LobeTableFile, table_of_an_order_is_none_of_a_band) {
 }
 
 LobeTable committed_table(const LobeUse& use) {
-    const LobeTable table = read_lobe_table(fs::path(ZONAL_TABLES_DIR) / use.table_name(), use);
-    EXPECT_THAT(table.command, HasSubstr("--out generator/tables/" + use.table_name().string()));
+    const LobeTable table = read_lobe_table(fs::path(ZONAL_TABLES_DIR) / use.table_path(), use);
+    EXPECT_THAT(table.command, HasSubstr("--out generator/tables/" + use.table_path().string()));
     return table;
 }
 
@@ -310,18 +347,15 @@ TEST_P(CommittedTableOfAnOrder, is_verified_and_not_worse_than_promised) {
 
 INSTANTIATE_TEST_SUITE_P(orders, CommittedTableOfAnOrder, testing::Range(3, 21));
 
-class ConditionedTableOfAnOrder : public testing::TestWithParam<int> {};
+class TableOfRotateZhf : public testing::TestWithParam<int> {};
 
-TEST_P(ConditionedTableOfAnOrder, is_verified_and_better_conditioned_than_the_sparsest_lobes) {
-    const LobeUse use = LobeUse::order(GetParam());
-    const LobeTable conditioned =
-        read_lobe_table(fs::path(ZONAL_TABLES_DIR) / use.conditioned_table_name(), use);
-    EXPECT_THAT(conditioned.command,
-                HasSubstr("--out generator/tables/" + use.conditioned_table_name().string()));
-    EXPECT_LT(std::ranges::max(conditioned.condition), std::ranges::max(committed_table(use).condition));
+TEST_P(TableOfRotateZhf, is_verified_and_better_conditioned_than_the_sparsest_lobes) {
+    const LobeTable own = committed_table(LobeUse::order(GetParam(), TableRole::rotate_zhf));
+    const LobeTable sparsest = committed_table(LobeUse::order(GetParam()));
+    EXPECT_LT(std::ranges::max(own.condition), std::ranges::max(sparsest.condition));
 }
 
-INSTANTIATE_TEST_SUITE_P(orders, ConditionedTableOfAnOrder, testing::Values(8, 9, 10, 11, 12, 13, 16));
+INSTANTIATE_TEST_SUITE_P(orders, TableOfRotateZhf, testing::Values(8, 9, 10, 11, 12, 13, 16));
 
 class CommittedTableOfABand : public testing::TestWithParam<int> {};
 

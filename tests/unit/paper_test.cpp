@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "exact/angles.hpp"
-#include "lobe_table.hpp"
+#include "lobes/lobe_table.hpp"
 #include "paper/comparison.hpp"
 #include "paper/published.hpp"
 #include "paper/random_sparsity.hpp"
@@ -24,7 +24,9 @@ fs::path folder_with(const std::vector<std::string>& tables) {
     const fs::path folder = fs::path(testing::TempDir()) / ("zonal_paper_" + std::to_string(getpid()));
     fs::remove_all(folder);
     fs::create_directories(folder);
-    for (const std::string& table : tables) fs::copy_file(fs::path(ZONAL_TABLES_DIR) / table, folder / table);
+    fs::create_directories(folder / "shared");
+    for (const std::string& table : tables)
+        fs::copy_file(fs::path(ZONAL_TABLES_DIR) / "shared" / table, folder / "shared" / table);
     return folder;
 }
 
@@ -117,13 +119,10 @@ TEST(Comparison, lists_the_lobes_of_each_function_of_a_band) {
     LobeTable table;
     table.use = LobeUse::band(2);
     for (const auto& [theta, phi] : std::vector<std::pair<const char*, const char*>>{
-             {"0", "0"}, {"pi/4", "0"}, {"pi/4", "pi/2"}, {"pi/2", "0"}, {"pi/2", "pi/4"}}) {
-        table.angles.push_back({theta, phi});
-        table.directions.push_back(
-            exact::direction_of(exact::evaluate_closed_form(theta), exact::evaluate_closed_form(phi)));
-    }
-    measure_lobe_table(table);
-    write_lobe_table(folder / "band02.json", table);
+             {"0", "0"}, {"pi/4", "0"}, {"pi/4", "pi/2"}, {"pi/2", "0"}, {"pi/2", "pi/4"}})
+        table.lobes.push_back(Lobe::at(theta, phi));
+    factorize(table);
+    write_lobe_table(folder / table.use.table_path(), table);
     const Json row = lobes_of_functions(folder)[0];
     EXPECT_EQ(row["ours"][2], 1);  // y_2^0 is the lobe at the pole
     const auto lobes = row["ours"].get<std::vector<int>>();
@@ -151,7 +150,7 @@ TEST(Sheets, have_a_row_of_equal_length_for_every_number_and_say_what_is_missing
 }
 
 TEST(PaperCommand, a_page_that_cannot_be_written_ends_it_at_once) {
-    const std::string page = (folder_with({"order03.json"}) / "order03.json" / "page.html").string();
+    const std::string page = (folder_with({"order03.json"}) / "shared/order03.json" / "page.html").string();
     EXPECT_NE(std::system(("'" ZONAL_GEN "' paper --html '" + page + "' >/dev/null 2>&1").c_str()), 0);
 }
 

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "lobe_table.hpp"
+#include "lobes/lobe_table.hpp"
 
 namespace zonal {
 namespace {
@@ -55,11 +55,11 @@ TEST_F(SearchCommand, what_a_walk_makes_better_names_the_search_that_made_its_st
     const LobeTable better = read_lobe_table(path("b.json"), LobeUse::band(4));
     EXPECT_LT(better.nonzeros, start.nonzeros);
     EXPECT_THAT(better.command, StartsWith(start.command + " && zonal-gen search --band 4 --seed 3 "));
-    EXPECT_THAT(better.command, HasSubstr(" --walk --resume generator/tables/band04.json"));
+    EXPECT_THAT(better.command, HasSubstr(" --walk --resume generator/tables/band/band04.json"));
 }
 
 TEST_F(SearchCommand, what_it_cannot_make_better_stays_as_it_was) {
-    const fs::path table = fs::path(ZONAL_SOURCE_DIR) / "generator/tables/band02.json";
+    const fs::path table = fs::path(ZONAL_SOURCE_DIR) / "generator/tables/band/band02.json";
     ASSERT_EQ(search("--band 2 --walk --resume '" + table.string() +
                          "' --generations 1 --local-moves 100 --multiplication-weight 0 "
                          "--condition-weight 0",
@@ -76,6 +76,27 @@ TEST_F(SearchCommand, ctrl_c_ends_it_with_the_best_kept) {
               0);
     EXPECT_GT(read_lobe_table(path("b.json"), LobeUse::band(4)).nonzeros, 0);
     EXPECT_THAT(bytes("output"), HasSubstr(path("b.json")));
+}
+
+TEST_F(SearchCommand, writes_what_the_table_is_for) {
+    const std::string quick = "--order 3 --generations 1 --on-grid --local-moves 20";
+    ASSERT_EQ(search(quick, "a.json"), 0);
+    EXPECT_EQ(read_lobe_table(path("a.json"), LobeUse::order(3)).use.role, TableRole::shared);
+    const LobeUse use = LobeUse::order(3, TableRole::rotate_zhf);
+    ASSERT_EQ(search(quick + " --for rotate_zhf --resume '" + path("a.json") + "'", "b.json"), 0);
+    EXPECT_EQ(read_lobe_table(path("b.json"), use).use.role, TableRole::rotate_zhf);
+    ASSERT_EQ(search(quick + " --for rotate_zhf", "b.json"), 0);
+    EXPECT_THAT(read_lobe_table(path("b.json"), use).command,
+                testing::AllOf(StartsWith("zonal-gen search --order 3 --for rotate_zhf --seed "),
+                               HasSubstr(" --out generator/tables/rotate_zhf/order03.json")));
+}
+
+TEST_F(SearchCommand, refuses_to_find_an_order_what_only_a_band_has) {
+    EXPECT_EQ(search("--order 3 --for band_mirrored", "b.json") >> 8, 1);
+    EXPECT_THAT(bytes("output"), HasSubstr("--for: found 'band_mirrored', wanted shared or rotate_zhf"));
+    EXPECT_EQ(search("--band 4 --for band_mirrored", "b.json") >> 8, 1);
+    EXPECT_THAT(bytes("output"), HasSubstr("found no --mirrors"));
+    EXPECT_FALSE(fs::exists(path("b.json")));
 }
 
 TEST_F(SearchCommand, a_walk_without_a_start_is_refused) {

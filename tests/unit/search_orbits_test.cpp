@@ -6,8 +6,8 @@
 #include <set>
 
 #include "kernels/lobes.hpp"
-#include "lobe_table.hpp"
-#include "order_kernels.hpp"
+#include "kernels/order_kernels.hpp"
+#include "lobes/lobe_table.hpp"
 #include "search/orbit_search.hpp"
 #include "support/no_stop.hpp"
 
@@ -126,9 +126,7 @@ TEST(FourierSums, are_orthogonal) {
     }
 }
 
-int instructions(const exact::BandFactorization& band) {
-    return kernels::factorization_counts(band).instructions();
-}
+int instructions(const BandFactorization& band) { return kernels::factorization_counts(band).instructions(); }
 
 SearchSettings settings_for(int generations) {
     SearchSettings settings;
@@ -157,7 +155,7 @@ TEST(OrbitSearch, finds_cheaper_products_of_band_4_than_the_sparsest_lobes) {
     const SearchResult result = search_orbits(4, settings_for(8), {1, 2000}, instructions, kNoStop);
     EXPECT_LE(result.progress.instructions, 24);
     EXPECT_EQ(result.progress.instructions,
-              instructions(exact::factorize_band(4, directions_of(result.best.lobes))));
+              instructions(factorize_band(4, directions_of(result.best.lobes))));
     EXPECT_LE(result.best.score.condition, 50);
 }
 
@@ -195,26 +193,22 @@ TEST(OrbitSearch, ends_without_lobes_where_there_are_none) {
 class MirroredTableOfABand : public testing::TestWithParam<int> {};
 
 TEST_P(MirroredTableOfABand, is_verified_and_costs_less_than_the_sparsest_lobes) {
-    const LobeUse use = LobeUse::band(GetParam());
-    const std::filesystem::path tables(ZONAL_TABLES_DIR);
-    const LobeTable mirrored = read_lobe_table(tables / use.mirrored_table_name(), use);
-    EXPECT_THAT(mirrored.command,
-                testing::HasSubstr("--out generator/tables/" + use.mirrored_table_name().string()));
-    const LobeTable sparsest = read_lobe_table(tables / use.table_name(), use);
-    const int l = GetParam();
-    EXPECT_LT(instructions(exact::factorize_band(l, mirrored.directions)),
-              instructions(exact::factorize_band(l, sparsest.directions)));
+    const auto committed = [](const LobeUse& use) {
+        return read_lobe_table(std::filesystem::path(ZONAL_TABLES_DIR) / use.table_path(), use);
+    };
+    const LobeUse use = LobeUse::band(GetParam(), TableRole::band_mirrored);
+    const LobeTable mirrored = committed(use), sparsest = committed(LobeUse::band(GetParam()));
+    EXPECT_THAT(mirrored.command, testing::HasSubstr("--out generator/tables/" + use.table_path().string()));
+    EXPECT_LT(instructions(mirrored.bands[0]), instructions(sparsest.bands[0]));
 }
 
 TEST(PerBandLobes, are_those_of_the_cheaper_table) {
     const OrderKernels order = build_order_kernels(6, {});
-    ASSERT_TRUE(order.band_lobes);
-    for (const NamedTable& source : order.band_lobes->sources) {
-        const int l = source.table.use.value;
+    ASSERT_EQ(order.tables.per_band.size(), 4);
+    for (const TablePointer& source : order.tables.per_band) {
         // Below band 4 there is one table.
-        const bool is_mirrored = source.name.find("mirrored/") != std::string::npos;
-        EXPECT_EQ(is_mirrored, l >= 4) << source.name;
-        EXPECT_EQ(order.band_lobes->set.bands[l].zeros, source.table.zeros[0]) << source.name;
+        const LobeUse& use = source->table.use;
+        EXPECT_EQ(use.role, use.value >= 4 ? TableRole::band_mirrored : TableRole::band) << source->name;
     }
 }
 

@@ -1,8 +1,8 @@
-#include "tables_folder.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+
+#include "lobes/tables_folder.hpp"
 
 namespace {
 

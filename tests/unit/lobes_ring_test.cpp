@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "exact/ring.hpp"
-#include "exact/spherical_harmonics.hpp"
+#include <Eigen/Dense>
 
-namespace zonal::exact {
+#include "exact/spherical_harmonics.hpp"
+#include "lobes/ring.hpp"
+
+namespace zonal {
 namespace {
+
+using namespace exact;
 
 TEST(Ring, factorization_undoes_the_sampling_of_a_band) {
     const Ring ring = best_ring(7);
@@ -44,4 +48,4 @@ TEST(Ring, condition_is_at_most_10_in_every_band_of_every_order) {
 }
 
 }  // namespace
-}  // namespace zonal::exact
+}  // namespace zonal

@@ -3,11 +3,13 @@
 #include <cmath>
 
 #include "exact/angles.hpp"
-#include "exact/factorization.hpp"
 #include "exact/spherical_harmonics.hpp"
+#include "lobes/factorization.hpp"
 
-namespace zonal::exact {
+namespace zonal {
 namespace {
+
+using namespace exact;
 
 /// Directions in general position: a spiral.
 std::vector<Direction<Real>> spiral(int count) {
@@ -54,4 +56,4 @@ TEST(Factorization, bands_of_an_order_use_the_first_lobes) {
 }
 
 }  // namespace
-}  // namespace zonal::exact
+}  // namespace zonal
