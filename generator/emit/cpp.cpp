@@ -195,8 +195,8 @@ class CppSyntax : public Syntax {
     }
     std::string copy_sign(const graph::Number& size, const graph::Number& size_in_float,
                           const std::string& sign) const override {
-        return fmt::format("copysign(T(is_single<T>::value ? {} : {}), {})", literal(size_in_float),
-                           literal(size), sign);
+        return fmt::format("copysign(T(is_single<T>::value ? {} : {}), {})",
+                           static_cast<double>(size_in_float), static_cast<double>(size), sign);
     }
 };
 
