@@ -59,7 +59,10 @@ const char* const kMacros = R"(
 )";
 
 const char* const kPrelude = R"(
-// What kernels use beside + - * /. T and V may have functions of their own, found by argument-dependent lookup.
+// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and unary -, and where
+// a kernel says so / and the functions sqrt and copysign; V, of signal values, + - and unary -, and T * V. Where
+// fma(a, b, c) is a b + c by one rounding, they may have that too. Functions of their own are found by
+// argument-dependent lookup; what follows serves float, double and the rest.
 namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
@@ -165,6 +168,7 @@ std::string kernel_comment(const Kernel& kernel) {
         lines.push_back(fmt::format("Error: at most (k{0}Bound... + k{0}Excess |R R^T - I|_F) |{1}|.",
                                     pascal_case(kernel.name),
                                     last.kind == Kind::signal ? last.name : "signal"));
+    if (has_pole(kernel)) lines.push_back("T needs /, sqrt and copysign too.");
     if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
         lines.push_back(has_pole(kernel)
                             ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
