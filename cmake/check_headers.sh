@@ -56,14 +56,14 @@ is_open {
     sub(/ *\{$/, "", signature)
     gsub(/\(  */, "(", signature)
     # Helpers that return a value are compiled with the kernels that call them.
-    if (signature !~ /^(inline )?void [a-z_0-9]+\(/) next
-    sub(/^inline /, "", signature)
+    if (signature !~ /^(ZONAL_HOST_DEVICE static |inline )?void [a-z_0-9]+\(/) next
+    sub(/^(ZONAL_HOST_DEVICE static |inline )/, "", signature)
     ++kernels
     if (parameters == "template <class T>") {
         instantiate("T", "float", ""); instantiate("T", "double", "")
     } else if (parameters == "template <class T, class V = T>") {
         instantiate("T V", "float", "float"); instantiate("T V", "double", "double"); instantiate("T V", "float", "Signal")
-    } else if (parameters == "template <class V>" || parameters == "template <class V, class T = typename scalar_of<V>::type>") {
+    } else if (parameters == "template <class V>" || parameters == "template <class V, class T = typename detail::scalar_of<V>::type>") {
         instantiate("V", "float", "float"); instantiate("V", "double", "double"); instantiate("V", "float", "Signal")
     } else {
         fail("a kernel of unknown parameters, " parameters "; teach cmake/check_headers.sh what to compile it with")

@@ -19,50 +19,50 @@
 // o : 4 values, index l(l+1)+m.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
-void zonal_order4_rotate_low(float R[9], float f[4], out float o[4]) {
-    float r00 = R[0];
-    float r01 = R[1];
-    float r02 = R[2];
-    float r10 = R[3];
-    float r11 = R[4];
-    float r12 = R[5];
-    float r20 = R[6];
-    float r21 = R[7];
-    float r22 = R[8];
+void zonal_order4_rotate_low(highp float R[9], highp float f[4], out highp float o[4]) {
+    highp float r00 = R[0];
+    highp float r01 = R[1];
+    highp float r02 = R[2];
+    highp float r10 = R[3];
+    highp float r11 = R[4];
+    highp float r12 = R[5];
+    highp float r20 = R[6];
+    highp float r21 = R[7];
+    highp float r22 = R[8];
     o[0] = f[0];
-    float b1_1 = r11 * f[1];
-    float b1_2 = r10 * f[3] + b1_1;
-    float b1_3 = r12 * f[2] + b1_2;
-    float b1_4 = r21 * f[1];
-    float b1_5 = r20 * f[3] + b1_4;
-    float b1_6 = r22 * f[2] + b1_5;
-    float b1_7 = r01 * f[1];
-    float b1_8 = r00 * f[3] + b1_7;
-    float b1_9 = r02 * f[2] + b1_8;
+    highp float b1_1 = r11 * f[1];
+    highp float b1_2 = r10 * f[3] + b1_1;
+    highp float b1_3 = r12 * f[2] + b1_2;
+    highp float b1_4 = r21 * f[1];
+    highp float b1_5 = r20 * f[3] + b1_4;
+    highp float b1_6 = r22 * f[2] + b1_5;
+    highp float b1_7 = r01 * f[1];
+    highp float b1_8 = r00 * f[3] + b1_7;
+    highp float b1_9 = r02 * f[2] + b1_8;
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
 }
-void zonal_order4_rotate_low(float R[9], vec3 f[4], out vec3 o[4]) {
-    float r00 = R[0];
-    float r01 = R[1];
-    float r02 = R[2];
-    float r10 = R[3];
-    float r11 = R[4];
-    float r12 = R[5];
-    float r20 = R[6];
-    float r21 = R[7];
-    float r22 = R[8];
+void zonal_order4_rotate_low(highp float R[9], highp vec3 f[4], out highp vec3 o[4]) {
+    highp float r00 = R[0];
+    highp float r01 = R[1];
+    highp float r02 = R[2];
+    highp float r10 = R[3];
+    highp float r11 = R[4];
+    highp float r12 = R[5];
+    highp float r20 = R[6];
+    highp float r21 = R[7];
+    highp float r22 = R[8];
     o[0] = f[0];
-    vec3 b1_1 = r11 * f[1];
-    vec3 b1_2 = r10 * f[3] + b1_1;
-    vec3 b1_3 = r12 * f[2] + b1_2;
-    vec3 b1_4 = r21 * f[1];
-    vec3 b1_5 = r20 * f[3] + b1_4;
-    vec3 b1_6 = r22 * f[2] + b1_5;
-    vec3 b1_7 = r01 * f[1];
-    vec3 b1_8 = r00 * f[3] + b1_7;
-    vec3 b1_9 = r02 * f[2] + b1_8;
+    highp vec3 b1_1 = r11 * f[1];
+    highp vec3 b1_2 = r10 * f[3] + b1_1;
+    highp vec3 b1_3 = r12 * f[2] + b1_2;
+    highp vec3 b1_4 = r21 * f[1];
+    highp vec3 b1_5 = r20 * f[3] + b1_4;
+    highp vec3 b1_6 = r22 * f[2] + b1_5;
+    highp vec3 b1_7 = r01 * f[1];
+    highp vec3 b1_8 = r00 * f[3] + b1_7;
+    highp vec3 b1_9 = r02 * f[2] + b1_8;
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
@@ -70,8 +70,8 @@ void zonal_order4_rotate_low(float R[9], vec3 f[4], out vec3 o[4]) {
 
 // The direction in which stretched faces hold the value for w: all but its largest component times
 // 31/32, so that a filter never reaches across an edge of the cube. On an edge one is the largest.
-vec3 zonal_order4_face_direction(vec3 w) {
-    vec3 size = abs(w);
+highp vec3 zonal_order4_face_direction(highp vec3 w) {
+    highp vec3 size = abs(w);
     bool is_x = size.x >= max(size.y, size.z);
     bool is_y = size.y >= size.z;
     return mix(w, 0.96875 * w, bvec3(!is_x, is_x || !is_y, is_x || is_y));
@@ -85,34 +85,34 @@ vec3 zonal_order4_face_direction(vec3 w) {
 // levels : the mip level of each layer, whole numbers.
 // o : 16 values, index l(l+1)+m.
 // Error: that stated beside the tables. Cost: see the banner. Source: eq. 11.
-void zonal_order4_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArray bands,
-        float levels[2], out vec3 o[16]) {
-    float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);
-    float w[21];
+void zonal_order4_rotate_tailored(highp float R[9], highp vec3 low[4],
+        highp samplerCubeArray bands, highp float levels[2], out highp vec3 o[16]) {
+    highp float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);
+    highp float w[21];
     zonal_order4_lobes(inverse, w);
-    vec3 w0 = zonal_order4_face_direction(vec3(w[0], w[1], w[2]));
-    vec3 w1 = zonal_order4_face_direction(vec3(w[3], w[4], w[5]));
-    vec3 w2 = zonal_order4_face_direction(vec3(w[6], w[7], w[8]));
-    vec3 w3 = zonal_order4_face_direction(vec3(w[9], w[10], w[11]));
-    vec3 w4 = zonal_order4_face_direction(vec3(w[12], w[13], w[14]));
-    vec3 w5 = zonal_order4_face_direction(vec3(w[15], w[16], w[17]));
-    vec3 w6 = zonal_order4_face_direction(vec3(w[18], w[19], w[20]));
-    vec3 samples[16];
+    highp vec3 w0 = zonal_order4_face_direction(vec3(w[0], w[1], w[2]));
+    highp vec3 w1 = zonal_order4_face_direction(vec3(w[3], w[4], w[5]));
+    highp vec3 w2 = zonal_order4_face_direction(vec3(w[6], w[7], w[8]));
+    highp vec3 w3 = zonal_order4_face_direction(vec3(w[9], w[10], w[11]));
+    highp vec3 w4 = zonal_order4_face_direction(vec3(w[12], w[13], w[14]));
+    highp vec3 w5 = zonal_order4_face_direction(vec3(w[15], w[16], w[17]));
+    highp vec3 w6 = zonal_order4_face_direction(vec3(w[18], w[19], w[20]));
+    highp vec3 samples[16];
     // Band 2.
     samples[4] = textureLod(bands, vec4(w0, 0.0), levels[0]).rgb;
     samples[5] = textureLod(bands, vec4(w1, 0.0), levels[0]).rgb;
     samples[6] = textureLod(bands, vec4(w2, 0.0), levels[0]).rgb;
     samples[7] = textureLod(bands, vec4(w3, 0.0), levels[0]).rgb;
     samples[8] = textureLod(bands, vec4(w4, 0.0), levels[0]).rgb;
-    vec3 b2_m0_1 = 1.05688727 * samples[6];
-    vec3 b2_m0_2 = 1.32110906 * samples[4] - b2_m0_1;
-    vec3 b2_m0_3 = 1.32110906 * samples[8] + b2_m0_2;
-    vec3 b2_m1_1 = 1.32110906 * samples[5] + b2_m0_2;
-    vec3 b2_m2_1 = 1.58533096 * samples[7];
-    vec3 b2_m3_1 = 1.8305825 * samples[6];
-    vec3 b2_m3_2 = samples[5] + samples[8];
-    vec3 b2_m3_3 = -2.28822803 * b2_m3_2 + b2_m3_1;
-    vec3 b2_m4_1 = -0.91529125 * samples[7] - b2_m3_1;
+    highp vec3 b2_m0_1 = 1.05688727 * samples[6];
+    highp vec3 b2_m0_2 = 1.32110906 * samples[4] - b2_m0_1;
+    highp vec3 b2_m0_3 = 1.32110906 * samples[8] + b2_m0_2;
+    highp vec3 b2_m1_1 = 1.32110906 * samples[5] + b2_m0_2;
+    highp vec3 b2_m2_1 = 1.58533096 * samples[7];
+    highp vec3 b2_m3_1 = 1.8305825 * samples[6];
+    highp vec3 b2_m3_2 = samples[5] + samples[8];
+    highp vec3 b2_m3_3 = -2.28822803 * b2_m3_2 + b2_m3_1;
+    highp vec3 b2_m4_1 = -0.91529125 * samples[7] - b2_m3_1;
     o[4] = b2_m0_3;
     o[5] = b2_m1_1;
     o[6] = b2_m2_1;
@@ -126,21 +126,21 @@ void zonal_order4_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArra
     samples[13] = textureLod(bands, vec4(w4, 1.0), levels[1]).rgb;
     samples[14] = textureLod(bands, vec4(w5, 1.0), levels[1]).rgb;
     samples[15] = textureLod(bands, vec4(w6, 1.0), levels[1]).rgb;
-    vec3 b3_m0_1 = samples[14] + samples[15];
-    vec3 b3_m0_2 = samples[11] - b3_m0_1;
-    vec3 b3_m1_1 = samples[10] - samples[13];
-    vec3 b3_m2_1 = 0.729321539 * b3_m0_1;
-    vec3 b3_m3_1 = 1.33984911 * samples[12];
-    vec3 b3_m4_1 = samples[14] - samples[15];
-    vec3 b3_m5_1 = samples[9] + samples[10];
-    vec3 b3_m5_2 = 1.72973788 * samples[12];
-    vec3 b3_m6_1 = samples[9] - samples[13];
-    vec3 b3_m0_3 = -0.564930022 * b3_m0_2;
-    vec3 b3_m1_2 = -1.11654103 * b3_m1_1;
-    vec3 b3_m2_2 = -1.45864308 * samples[11] - b3_m2_1;
-    vec3 b3_m4_2 = -1.26322186 * b3_m4_1;
-    vec3 b3_m5_3 = -1.93390572 * b3_m5_1 - b3_m5_2;
-    vec3 b3_m6_2 = -1.1842705 * b3_m6_1;
+    highp vec3 b3_m0_1 = samples[14] + samples[15];
+    highp vec3 b3_m0_2 = samples[11] - b3_m0_1;
+    highp vec3 b3_m1_1 = samples[10] - samples[13];
+    highp vec3 b3_m2_1 = 0.729321539 * b3_m0_1;
+    highp vec3 b3_m3_1 = 1.33984911 * samples[12];
+    highp vec3 b3_m4_1 = samples[14] - samples[15];
+    highp vec3 b3_m5_1 = samples[9] + samples[10];
+    highp vec3 b3_m5_2 = 1.72973788 * samples[12];
+    highp vec3 b3_m6_1 = samples[9] - samples[13];
+    highp vec3 b3_m0_3 = -0.564930022 * b3_m0_2;
+    highp vec3 b3_m1_2 = -1.11654103 * b3_m1_1;
+    highp vec3 b3_m2_2 = -1.45864308 * samples[11] - b3_m2_1;
+    highp vec3 b3_m4_2 = -1.26322186 * b3_m4_1;
+    highp vec3 b3_m5_3 = -1.93390572 * b3_m5_1 - b3_m5_2;
+    highp vec3 b3_m6_2 = -1.1842705 * b3_m6_1;
     o[9] = b3_m0_3;
     o[10] = b3_m1_2;
     o[11] = b3_m2_2;
@@ -148,7 +148,7 @@ void zonal_order4_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArra
     o[13] = b3_m4_2;
     o[14] = b3_m5_3;
     o[15] = b3_m6_2;
-    vec3 turned[4];
+    highp vec3 turned[4];
     zonal_order4_rotate_low(R, low, turned);
     o[0] = turned[0];
     o[1] = turned[1];

@@ -20,50 +20,50 @@
 // o : 4 values, index l(l+1)+m.
 // Cost: see the banner.
 // Source: low bands as tensors, contracted with the rows of R.
-void zonal_order5_rotate_low(float R[9], float f[4], out float o[4]) {
-    float r00 = R[0];
-    float r01 = R[1];
-    float r02 = R[2];
-    float r10 = R[3];
-    float r11 = R[4];
-    float r12 = R[5];
-    float r20 = R[6];
-    float r21 = R[7];
-    float r22 = R[8];
+void zonal_order5_rotate_low(highp float R[9], highp float f[4], out highp float o[4]) {
+    highp float r00 = R[0];
+    highp float r01 = R[1];
+    highp float r02 = R[2];
+    highp float r10 = R[3];
+    highp float r11 = R[4];
+    highp float r12 = R[5];
+    highp float r20 = R[6];
+    highp float r21 = R[7];
+    highp float r22 = R[8];
     o[0] = f[0];
-    float b1_1 = r11 * f[1];
-    float b1_2 = r10 * f[3] + b1_1;
-    float b1_3 = r12 * f[2] + b1_2;
-    float b1_4 = r21 * f[1];
-    float b1_5 = r20 * f[3] + b1_4;
-    float b1_6 = r22 * f[2] + b1_5;
-    float b1_7 = r01 * f[1];
-    float b1_8 = r00 * f[3] + b1_7;
-    float b1_9 = r02 * f[2] + b1_8;
+    highp float b1_1 = r11 * f[1];
+    highp float b1_2 = r10 * f[3] + b1_1;
+    highp float b1_3 = r12 * f[2] + b1_2;
+    highp float b1_4 = r21 * f[1];
+    highp float b1_5 = r20 * f[3] + b1_4;
+    highp float b1_6 = r22 * f[2] + b1_5;
+    highp float b1_7 = r01 * f[1];
+    highp float b1_8 = r00 * f[3] + b1_7;
+    highp float b1_9 = r02 * f[2] + b1_8;
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
 }
-void zonal_order5_rotate_low(float R[9], vec3 f[4], out vec3 o[4]) {
-    float r00 = R[0];
-    float r01 = R[1];
-    float r02 = R[2];
-    float r10 = R[3];
-    float r11 = R[4];
-    float r12 = R[5];
-    float r20 = R[6];
-    float r21 = R[7];
-    float r22 = R[8];
+void zonal_order5_rotate_low(highp float R[9], highp vec3 f[4], out highp vec3 o[4]) {
+    highp float r00 = R[0];
+    highp float r01 = R[1];
+    highp float r02 = R[2];
+    highp float r10 = R[3];
+    highp float r11 = R[4];
+    highp float r12 = R[5];
+    highp float r20 = R[6];
+    highp float r21 = R[7];
+    highp float r22 = R[8];
     o[0] = f[0];
-    vec3 b1_1 = r11 * f[1];
-    vec3 b1_2 = r10 * f[3] + b1_1;
-    vec3 b1_3 = r12 * f[2] + b1_2;
-    vec3 b1_4 = r21 * f[1];
-    vec3 b1_5 = r20 * f[3] + b1_4;
-    vec3 b1_6 = r22 * f[2] + b1_5;
-    vec3 b1_7 = r01 * f[1];
-    vec3 b1_8 = r00 * f[3] + b1_7;
-    vec3 b1_9 = r02 * f[2] + b1_8;
+    highp vec3 b1_1 = r11 * f[1];
+    highp vec3 b1_2 = r10 * f[3] + b1_1;
+    highp vec3 b1_3 = r12 * f[2] + b1_2;
+    highp vec3 b1_4 = r21 * f[1];
+    highp vec3 b1_5 = r20 * f[3] + b1_4;
+    highp vec3 b1_6 = r22 * f[2] + b1_5;
+    highp vec3 b1_7 = r01 * f[1];
+    highp vec3 b1_8 = r00 * f[3] + b1_7;
+    highp vec3 b1_9 = r02 * f[2] + b1_8;
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
@@ -71,8 +71,8 @@ void zonal_order5_rotate_low(float R[9], vec3 f[4], out vec3 o[4]) {
 
 // The direction in which stretched faces hold the value for w: all but its largest component times
 // 31/32, so that a filter never reaches across an edge of the cube. On an edge one is the largest.
-vec3 zonal_order5_face_direction(vec3 w) {
-    vec3 size = abs(w);
+highp vec3 zonal_order5_face_direction(highp vec3 w) {
+    highp vec3 size = abs(w);
     bool is_x = size.x >= max(size.y, size.z);
     bool is_y = size.y >= size.z;
     return mix(w, 0.96875 * w, bvec3(!is_x, is_x || !is_y, is_x || is_y));
@@ -86,38 +86,38 @@ vec3 zonal_order5_face_direction(vec3 w) {
 // levels : the mip level of each layer, whole numbers.
 // o : 25 values, index l(l+1)+m.
 // Error: that stated beside the tables. Cost: see the banner. Source: eq. 11.
-void zonal_order5_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArray bands,
-        float levels[3], out vec3 o[25]) {
-    float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);
-    float w[27];
+void zonal_order5_rotate_tailored(highp float R[9], highp vec3 low[4],
+        highp samplerCubeArray bands, highp float levels[3], out highp vec3 o[25]) {
+    highp float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);
+    highp float w[27];
     zonal_order5_lobes(inverse, w);
-    vec3 w0 = zonal_order5_face_direction(vec3(w[0], w[1], w[2]));
-    vec3 w1 = zonal_order5_face_direction(vec3(w[3], w[4], w[5]));
-    vec3 w2 = zonal_order5_face_direction(vec3(w[6], w[7], w[8]));
-    vec3 w3 = zonal_order5_face_direction(vec3(w[9], w[10], w[11]));
-    vec3 w4 = zonal_order5_face_direction(vec3(w[12], w[13], w[14]));
-    vec3 w5 = zonal_order5_face_direction(vec3(w[15], w[16], w[17]));
-    vec3 w6 = zonal_order5_face_direction(vec3(w[18], w[19], w[20]));
-    vec3 w7 = zonal_order5_face_direction(vec3(w[21], w[22], w[23]));
-    vec3 w8 = zonal_order5_face_direction(vec3(w[24], w[25], w[26]));
-    vec3 samples[25];
+    highp vec3 w0 = zonal_order5_face_direction(vec3(w[0], w[1], w[2]));
+    highp vec3 w1 = zonal_order5_face_direction(vec3(w[3], w[4], w[5]));
+    highp vec3 w2 = zonal_order5_face_direction(vec3(w[6], w[7], w[8]));
+    highp vec3 w3 = zonal_order5_face_direction(vec3(w[9], w[10], w[11]));
+    highp vec3 w4 = zonal_order5_face_direction(vec3(w[12], w[13], w[14]));
+    highp vec3 w5 = zonal_order5_face_direction(vec3(w[15], w[16], w[17]));
+    highp vec3 w6 = zonal_order5_face_direction(vec3(w[18], w[19], w[20]));
+    highp vec3 w7 = zonal_order5_face_direction(vec3(w[21], w[22], w[23]));
+    highp vec3 w8 = zonal_order5_face_direction(vec3(w[24], w[25], w[26]));
+    highp vec3 samples[25];
     // Band 2.
     samples[4] = textureLod(bands, vec4(w0, 0.0), levels[0]).rgb;
     samples[5] = textureLod(bands, vec4(w1, 0.0), levels[0]).rgb;
     samples[6] = textureLod(bands, vec4(w2, 0.0), levels[0]).rgb;
     samples[7] = textureLod(bands, vec4(w3, 0.0), levels[0]).rgb;
     samples[8] = textureLod(bands, vec4(w4, 0.0), levels[0]).rgb;
-    vec3 b2_m0_1 = 0.91529125 * samples[4];
-    vec3 b2_m0_2 = 1.8305825 * samples[6] + b2_m0_1;
-    vec3 b2_m0_3 = -b2_m0_2;
-    vec3 b2_m1_1 = samples[7] - samples[8];
-    vec3 b2_m1_2 = 1.32110906 * b2_m1_1 + b2_m0_2;
-    vec3 b2_m2_1 = 1.58533096 * samples[4];
-    vec3 b2_m3_1 = 1.8305825 * samples[5];
-    vec3 b2_m3_2 = samples[7] + samples[8];
-    vec3 b2_m4_1 = b2_m0_1 + b2_m3_1;
-    vec3 b2_m4_2 = -b2_m4_1;
-    vec3 b2_m3_3 = 2.28822803 * b2_m3_2 - b2_m3_1;
+    highp vec3 b2_m0_1 = 0.91529125 * samples[4];
+    highp vec3 b2_m0_2 = 1.8305825 * samples[6] + b2_m0_1;
+    highp vec3 b2_m0_3 = -b2_m0_2;
+    highp vec3 b2_m1_1 = samples[7] - samples[8];
+    highp vec3 b2_m1_2 = 1.32110906 * b2_m1_1 + b2_m0_2;
+    highp vec3 b2_m2_1 = 1.58533096 * samples[4];
+    highp vec3 b2_m3_1 = 1.8305825 * samples[5];
+    highp vec3 b2_m3_2 = samples[7] + samples[8];
+    highp vec3 b2_m4_1 = b2_m0_1 + b2_m3_1;
+    highp vec3 b2_m4_2 = -b2_m4_1;
+    highp vec3 b2_m3_3 = 2.28822803 * b2_m3_2 - b2_m3_1;
     o[4] = b2_m0_3;
     o[5] = b2_m1_2;
     o[6] = b2_m2_1;
@@ -131,22 +131,22 @@ void zonal_order5_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArra
     samples[13] = textureLod(bands, vec4(w4, 1.0), levels[1]).rgb;
     samples[14] = textureLod(bands, vec4(w5, 1.0), levels[1]).rgb;
     samples[15] = textureLod(bands, vec4(w6, 1.0), levels[1]).rgb;
-    vec3 b3_m0_1 = samples[11] + samples[15];
-    vec3 b3_m0_2 = 0.599198759 * b3_m0_1;
-    vec3 b3_m1_1 = samples[12] - samples[13];
-    vec3 b3_m1_2 = 1.11654103 * b3_m1_1;
-    vec3 b3_m2_1 = 0.773562253 * b3_m0_1;
-    vec3 b3_m3_1 = 1.33984911 * samples[9];
-    vec3 b3_m4_1 = samples[12] - samples[14];
-    vec3 b3_m4_2 = samples[11] - samples[15];
-    vec3 b3_m4_3 = 1.52888668 * b3_m4_1;
-    vec3 b3_m4_4 = 1.54712451 * b3_m4_2 + b3_m4_3;
-    vec3 b3_m5_1 = samples[13] + samples[14];
-    vec3 b3_m5_2 = 1.93390572 * b3_m5_1;
-    vec3 b3_m0_3 = -0.847395003 * samples[10] + b3_m0_2;
-    vec3 b3_m2_2 = -1.09398222 * samples[10] - b3_m2_1;
-    vec3 b3_m5_3 = -1.72973788 * samples[9] - b3_m5_2;
-    vec3 b3_m6_1 = -1.1842705 * b3_m4_1;
+    highp vec3 b3_m0_1 = samples[11] + samples[15];
+    highp vec3 b3_m0_2 = 0.599198759 * b3_m0_1;
+    highp vec3 b3_m1_1 = samples[12] - samples[13];
+    highp vec3 b3_m1_2 = 1.11654103 * b3_m1_1;
+    highp vec3 b3_m2_1 = 0.773562253 * b3_m0_1;
+    highp vec3 b3_m3_1 = 1.33984911 * samples[9];
+    highp vec3 b3_m4_1 = samples[12] - samples[14];
+    highp vec3 b3_m4_2 = samples[11] - samples[15];
+    highp vec3 b3_m4_3 = 1.52888668 * b3_m4_1;
+    highp vec3 b3_m4_4 = 1.54712451 * b3_m4_2 + b3_m4_3;
+    highp vec3 b3_m5_1 = samples[13] + samples[14];
+    highp vec3 b3_m5_2 = 1.93390572 * b3_m5_1;
+    highp vec3 b3_m0_3 = -0.847395003 * samples[10] + b3_m0_2;
+    highp vec3 b3_m2_2 = -1.09398222 * samples[10] - b3_m2_1;
+    highp vec3 b3_m5_3 = -1.72973788 * samples[9] - b3_m5_2;
+    highp vec3 b3_m6_1 = -1.1842705 * b3_m4_1;
     o[9] = b3_m0_3;
     o[10] = b3_m1_2;
     o[11] = b3_m2_2;
@@ -164,35 +164,35 @@ void zonal_order5_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArra
     samples[22] = textureLod(bands, vec4(w6, 2.0), levels[2]).rgb;
     samples[23] = textureLod(bands, vec4(w7, 2.0), levels[2]).rgb;
     samples[24] = textureLod(bands, vec4(w8, 2.0), levels[2]).rgb;
-    vec3 b4_m0_1 = 0.400000006 * samples[16] + samples[21];
-    vec3 b4_m0_2 = 0.319999993 * samples[17] + b4_m0_1;
-    vec3 b4_m0_3 = samples[19] + b4_m0_2;
-    vec3 b4_m0_4 = 1.44144821 * b4_m0_3;
-    vec3 b4_m0_5 = 0.630097568 * samples[18] - b4_m0_4;
-    vec3 b4_m0_6 = -0.168834135 * samples[22] + b4_m0_5;
-    vec3 b4_m1_1 = samples[18] + samples[22];
-    vec3 b4_m1_2 = -1.33333337 * b4_m1_1 + samples[16];
-    vec3 b4_m1_3 = 1.99774528 * samples[23];
-    vec3 b4_m1_4 = 2.28313756 * samples[17] + b4_m1_3;
-    vec3 b4_m1_5 = -1.10079837 * b4_m1_2 + b4_m1_4;
-    vec3 b4_m2_1 = samples[18] - samples[22];
-    vec3 b4_m2_2 = 1.05688727 * b4_m2_1;
-    vec3 b4_m3_1 = samples[20] + b4_m0_2;
-    vec3 b4_m3_2 = 0.21573621 * b4_m1_1;
-    vec3 b4_m3_3 = 1.34835136 * b4_m3_1 - b4_m3_2;
-    vec3 b4_m4_1 = 1.18163586 * samples[16];
-    vec3 b4_m5_1 = samples[19] + samples[20];
-    vec3 b4_m5_2 = 1.55694199 * samples[24];
-    vec3 b4_m5_3 = 0.747332156 * samples[17] - b4_m5_2;
-    vec3 b4_m5_4 = -0.373666078 * b4_m1_1 + b4_m5_3;
-    vec3 b4_m6_1 = 2.11377454 * samples[17];
-    vec3 b4_m6_2 = 1.58533096 * samples[16] - b4_m6_1;
-    vec3 b4_m7_1 = samples[24] + b4_m5_1;
-    vec3 b4_m7_2 = 0.58846879 * b4_m7_1;
-    vec3 b4_m8_1 = 0.599198759 * b4_m1_2;
-    vec3 b4_m5_5 = -0.778470993 * b4_m5_1 - b4_m5_4;
-    vec3 b4_m6_3 = 1.05688727 * b4_m1_1 - b4_m6_2;
-    vec3 b4_m7_3 = -0.353081256 * samples[16] - b4_m7_2;
+    highp vec3 b4_m0_1 = 0.400000006 * samples[16] + samples[21];
+    highp vec3 b4_m0_2 = 0.319999993 * samples[17] + b4_m0_1;
+    highp vec3 b4_m0_3 = samples[19] + b4_m0_2;
+    highp vec3 b4_m0_4 = 1.44144821 * b4_m0_3;
+    highp vec3 b4_m0_5 = 0.630097568 * samples[18] - b4_m0_4;
+    highp vec3 b4_m0_6 = -0.168834135 * samples[22] + b4_m0_5;
+    highp vec3 b4_m1_1 = samples[18] + samples[22];
+    highp vec3 b4_m1_2 = -1.33333337 * b4_m1_1 + samples[16];
+    highp vec3 b4_m1_3 = 1.99774528 * samples[23];
+    highp vec3 b4_m1_4 = 2.28313756 * samples[17] + b4_m1_3;
+    highp vec3 b4_m1_5 = -1.10079837 * b4_m1_2 + b4_m1_4;
+    highp vec3 b4_m2_1 = samples[18] - samples[22];
+    highp vec3 b4_m2_2 = 1.05688727 * b4_m2_1;
+    highp vec3 b4_m3_1 = samples[20] + b4_m0_2;
+    highp vec3 b4_m3_2 = 0.21573621 * b4_m1_1;
+    highp vec3 b4_m3_3 = 1.34835136 * b4_m3_1 - b4_m3_2;
+    highp vec3 b4_m4_1 = 1.18163586 * samples[16];
+    highp vec3 b4_m5_1 = samples[19] + samples[20];
+    highp vec3 b4_m5_2 = 1.55694199 * samples[24];
+    highp vec3 b4_m5_3 = 0.747332156 * samples[17] - b4_m5_2;
+    highp vec3 b4_m5_4 = -0.373666078 * b4_m1_1 + b4_m5_3;
+    highp vec3 b4_m6_1 = 2.11377454 * samples[17];
+    highp vec3 b4_m6_2 = 1.58533096 * samples[16] - b4_m6_1;
+    highp vec3 b4_m7_1 = samples[24] + b4_m5_1;
+    highp vec3 b4_m7_2 = 0.58846879 * b4_m7_1;
+    highp vec3 b4_m8_1 = 0.599198759 * b4_m1_2;
+    highp vec3 b4_m5_5 = -0.778470993 * b4_m5_1 - b4_m5_4;
+    highp vec3 b4_m6_3 = 1.05688727 * b4_m1_1 - b4_m6_2;
+    highp vec3 b4_m7_3 = -0.353081256 * samples[16] - b4_m7_2;
     o[16] = b4_m0_6;
     o[17] = b4_m1_5;
     o[18] = b4_m2_2;
@@ -202,7 +202,7 @@ void zonal_order5_rotate_tailored(float R[9], vec3 low[4], highp samplerCubeArra
     o[22] = b4_m6_3;
     o[23] = b4_m7_3;
     o[24] = b4_m8_1;
-    vec3 turned[4];
+    highp vec3 turned[4];
     zonal_order5_rotate_low(R, low, turned);
     o[0] = turned[0];
     o[1] = turned[1];

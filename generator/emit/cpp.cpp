@@ -34,29 +34,65 @@ using graph::Op;
 /// `rotate` and its like stay below it at every order (order 20: 4 s, and 2.1 us instead of 5.1).
 constexpr int kLargestUnrolled = 9000;
 
+/// Once for all headers that a file includes.
+const char* const kMacros = R"(
+#if !defined(__GNUC__)
+#include <cmath>
+#endif
+
+#ifndef ZONAL_HOST_DEVICE
+// Kernels are functions of both sides where a compiler for GPUs reads this.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define ZONAL_HOST_DEVICE __host__ __device__
+#else
+#define ZONAL_HOST_DEVICE
+#endif
+// Always inlined: files compiled for different targets must not share a copy.
+#if defined(__GNUC__)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE __forceinline
+#else
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline
+#endif
+#endif
+)";
+
 const char* const kPrelude = R"(
+// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and unary -, and where
+// a kernel says so / and the functions sqrt and copysign; V, of signal values, + - and unary -, and T * V. Where
+// fma(a, b, c) is a b + c by one rounding, they may have that too. Functions of their own are found by
+// argument-dependent lookup; what follows serves float, double and the rest.
+namespace detail {
+
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
-// Always inlined: files compiled for different targets must not share a copy.
-#if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-[[gnu::always_inline]] inline float fma(float a, float b, float c) {
-    return __builtin_fmaf(a, b, c);
+template <class S, class V>
+ZONAL_INLINE V fma(const S& a, const V& b, const V& c) {
+    return a * b + c;
 }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) {
-    return __builtin_fma(a, b, c);
-}
-#else
-[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
+#if !defined(ZONAL_NO_FMA) && defined(__GNUC__) && \
+    (defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__))
+ZONAL_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+ZONAL_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
 #endif
-[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
-[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
-[[gnu::always_inline]] inline float copysign(float size, float sign) {
-    return __builtin_copysignf(size, sign);
-}
-[[gnu::always_inline]] inline double copysign(double size, double sign) {
-    return __builtin_copysign(size, sign);
-}
+#if defined(__GNUC__)
+ZONAL_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+ZONAL_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return __builtin_copysignf(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return __builtin_copysign(size, sign); }
+#else
+ZONAL_INLINE float sqrt(float a) { return std::sqrt(a); }
+ZONAL_INLINE double sqrt(double a) { return std::sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return std::copysign(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return std::copysign(size, sign); }
+#endif
+
+// Whether T computes in single precision: float, and what has float as its value_type.
+template <class T, class = void>
+struct is_single : std::is_same<T, float> {};
+template <class T>
+struct is_single<T, std::void_t<typename T::value_type>> : is_single<typename T::value_type> {};
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -77,7 +113,7 @@ const char* type_of(Kind kind) { return kind == Kind::signal ? "V" : "T"; }
 
 std::string template_line(const Kernel& kernel) {
     if (!kernel.uses(Kind::signal)) return "template <class T>\n";
-    if (!kernel.uses(Kind::rotation)) return "template <class V, class T = typename scalar_of<V>::type>\n";
+    if (!kernel.uses(Kind::rotation)) return "template <class V, class T = typename detail::scalar_of<V>::type>\n";
     return "template <class T, class V = T>\n";
 }
 
@@ -109,6 +145,14 @@ std::string pascal_case(const std::string& name) {
     return result;
 }
 
+/// Whether an angle is chosen where the rotation leaves it free: the result is right all the same, its derivative is
+/// not.
+bool has_pole(const Kernel& kernel) {
+    for (Id id = 0; id < kernel.graph.size(); ++id)
+        if (kernel.graph[id].op == Op::copy_sign) return true;
+    return false;
+}
+
 std::string kernel_comment(const Kernel& kernel) {
     const graph::Array& last = kernel.inputs.back();
     std::vector<std::string> lines = purpose_lines(kernel);
@@ -124,6 +168,11 @@ std::string kernel_comment(const Kernel& kernel) {
         lines.push_back(fmt::format("Error: at most (k{0}Bound... + k{0}Excess |R R^T - I|_F) |{1}|.",
                                     pascal_case(kernel.name),
                                     last.kind == Kind::signal ? last.name : "signal"));
+    if (has_pole(kernel)) lines.push_back("T needs /, sqrt and copysign too.");
+    if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
+        lines.push_back(has_pole(kernel)
+                            ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
+                            : "May be differentiated: T and V may be numbers that carry derivatives.");
     append(lines, source_lines(kernel));
     std::string text;
     for (const std::string& line : lines) text += "/// " + line + "\n";
@@ -148,8 +197,10 @@ class CppSyntax : public Syntax {
     std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
         return fmt::format("fma({}, {}, {})", a, b, c);
     }
-    std::string copy_sign(const std::string& size, const std::string& sign) const override {
-        return fmt::format("copysign({}, {})", size, sign);
+    std::string copy_sign(const graph::Number& size, const graph::Number& size_in_float,
+                          const std::string& sign) const override {
+        return fmt::format("copysign(T(is_single<T>::value ? {} : {}), {})",
+                           static_cast<double>(size_in_float), static_cast<double>(size), sign);
     }
 };
 
@@ -171,10 +222,20 @@ Body body_of(const Kernel& kernel) {
     return {printer.tables(), [=](int indentation) { return printer.body(indentation); }};
 }
 
+bool needs_helpers(const Kernel& kernel) {
+    for (Id id = 0; id < kernel.graph.size(); ++id) {
+        const Op op = kernel.graph[id].op;
+        if (op == Op::fused || op == Op::square_root || op == Op::copy_sign) return true;
+    }
+    return is_table_driven(kernel);
+}
+
 std::string print_kernel(const Kernel& kernel) {
     const Body body = body_of(kernel);
-    const std::string head = fmt::format("{}\n{}{}void {}({}) {{\n", body.tables, kernel_comment(kernel),
-                                         template_line(kernel), kernel.name, parameters(kernel));
+    // Static: a copy for each file, compiled as that file is.
+    const std::string head = fmt::format("{}\n{}{}ZONAL_HOST_DEVICE static void {}({}) {{\n{}", body.tables,
+                                         kernel_comment(kernel), template_line(kernel), kernel.name,
+                                         parameters(kernel), needs_helpers(kernel) ? "    using namespace detail;\n" : "");
     if (kernel.for_channels.empty()) return head + body.print(4) + "}\n";
     std::string arguments;
     for (const graph::Array& array : kernel.inputs) arguments += array.name + ", ";
@@ -232,11 +293,12 @@ std::string print_cpp(const Unit& unit) {
     std::string text;
     for (const std::string& line : banner_lines(unit)) text += "// " + line + "\n";
     const bool has_tables = std::any_of(unit.kernels.begin(), unit.kernels.end(), is_table_driven);
-    text += fmt::format("#pragma once\n\n{}#include <type_traits>\n{}\nnamespace zonal::{} {{\n",
+    text += fmt::format("#pragma once\n\n{}#include <type_traits>\n{}{}\nnamespace zonal::{} {{\n",
                         has_tables ? "#include <cstddef>\n" : "", has_tables ? "#include <utility>\n" : "",
-                        unit.name);
+                        kMacros, unit.name);
     text += kPrelude;
     if (has_tables) text += kTableLoops;
+    text += "\n}  // namespace detail\n";
     text += print_constants(unit);
     for (const std::string& variant : variants_of(unit)) {
         const std::string body = print_variant(unit, variant);

@@ -98,7 +98,7 @@ std::string expression(const Loop& loop) {
         case Op::square_root:
             return fmt::format("sqrt({})", operand(0));
         case Op::copy_sign:
-            return fmt::format("copysign({}, {})", operand(0), operand(1));
+            return fmt::format("copysign(is_single<T>::value ? {} : {}, {})", operand(1), operand(0), operand(2));
     }
     throw std::logic_error("an operation without an expression");
 }
@@ -153,17 +153,23 @@ using Columns = std::make_index_sequence<operands>;
 
 // One copy that stays in the instruction cache, not one for each call.
 #if defined(__clang__)
-#define ZONAL_SHARED_LOOP [[gnu::noinline]]
+#define ZONAL_SHARED_LOOP static __attribute__((noinline))
+#elif defined(__GNUC__)
+#define ZONAL_SHARED_LOOP static __attribute__((noinline, noclone))
 #else
-#define ZONAL_SHARED_LOOP [[gnu::noinline, gnu::noclone]]
+#define ZONAL_SHARED_LOOP static
 #endif
 
 // Runs are too short for what compilers do to loops at -O3.
-[[gnu::always_inline]] inline void keep_loop_short() { __asm__ volatile(""); }
+#if defined(__GNUC__)
+ZONAL_INLINE void keep_loop_short() { __asm__ volatile(""); }
+#else
+ZONAL_INLINE void keep_loop_short() {}
+#endif
 
 // Blocks of a fixed size, read before written, become vector instructions.
 template <int... steps, class Result, class Operation, class... Operand>
-inline void even_run(int count, Result* result, Operation operation, const Operand*... operands) {
+static void even_run(int count, Result* result, Operation operation, const Operand*... operands) {
     constexpr int kBlock = 4;
     int i = 0;
     for (; i + kBlock <= count; i += kBlock) {
@@ -228,7 +234,7 @@ std::string TablePrinter::tables() const {
     for (const graph::Number& constant : program_.constants) items.push_back(literal(constant));
     text += fmt::format("\ninline constexpr double k{}Exact[] = {{\n{}}};\n", name_, filled_lines(items));
     return text +
-           fmt::format("template <class C>\ninline constexpr Constants<C, {}> k{}Constants(k{}Exact);\n",
+           fmt::format("template <class C>\ninline constexpr detail::Constants<C, {}> k{}Constants(k{}Exact);\n",
                        items.size(), name_, name_);
 }
 

@@ -13,12 +13,12 @@ namespace {
 using graph::Kernel;
 using graph::Kind;
 
-/// float, or vec3 for signal values of three channels.
+/// float, or vec3 for signal values of three channels; highp, whatever the shader's default precision is.
 class GlslSyntax : public Syntax {
   public:
-    explicit GlslSyntax(bool has_channels) : signal_(has_channels ? "vec3" : "float") {}
+    explicit GlslSyntax(bool has_channels) : signal_(has_channels ? "highp vec3" : "highp float") {}
 
-    std::string type_of(Kind kind) const { return kind == Kind::signal ? signal_ : "float"; }
+    std::string type_of(Kind kind) const { return kind == Kind::signal ? signal_ : "highp float"; }
 
     std::string declare(Kind kind, const std::string& name, const std::string& value) const override {
         return fmt::format("{} {} = {};", type_of(kind), name, value);
@@ -28,10 +28,11 @@ class GlslSyntax : public Syntax {
         return product_and_sum(a, b, c);
     }
     /// By bits: a comparison with 0 would take -0 for +0.
-    std::string copy_sign(const std::string& size, const std::string& sign) const override {
+    std::string copy_sign(const graph::Number&, const graph::Number& size_in_float,
+                          const std::string& sign) const override {
         return fmt::format(
             "uintBitsToFloat((floatBitsToUint({}) & 0x7fffffffu) | (floatBitsToUint({}) & 0x80000000u))",
-            size, sign);
+            float_literal(size_in_float), sign);
     }
 
   private:

@@ -58,8 +58,8 @@ std::string print_face_direction(const Unit& unit) {
         "times\n"
         "// 31/32, so that a filter never reaches across an edge of the cube. On an edge one is the "
         "largest.\n"
-        "vec3 zonal_{}_face_direction(vec3 w) {{\n"
-        "    vec3 size = abs(w);\n"
+        "highp vec3 zonal_{}_face_direction(highp vec3 w) {{\n"
+        "    highp vec3 size = abs(w);\n"
         "    bool is_x = size.x >= max(size.y, size.z);\n"
         "    bool is_y = size.y >= size.z;\n"
         "    return mix(w, {} * w, bvec3(!is_x, is_x || !is_y, is_x || is_y));\n"
@@ -106,18 +106,18 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
         "// levels : the mip level of each layer, whole numbers.\n"
         "// o : {coefficients} values, index l(l+1)+m.\n"
         "// Error: that stated beside the tables. Cost: see the banner. Source: eq. 11.\n"
-        "void zonal_{name}_rotate_tailored(float R[9], vec3 low[{low}], highp samplerCubeArray bands,\n"
-        "        float levels[{layers}], out vec3 o[{coefficients}]) {{\n"
-        "    float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);\n"
-        "    float w[{directions}];\n"
+        "void zonal_{name}_rotate_tailored(highp float R[9], highp vec3 low[{low}],\n"
+        "        highp samplerCubeArray bands, highp float levels[{layers}], out highp vec3 o[{coefficients}]) {{\n"
+        "    highp float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);\n"
+        "    highp float w[{directions}];\n"
         "    zonal_{name}_lobes(inverse, w);\n",
         fmt::arg("name", unit.name), fmt::arg("low", low), fmt::arg("layers", rotation.bands.size()),
         fmt::arg("coefficients", coefficients), fmt::arg("directions", directions));
     for (int d = 0; 3 * d < directions; ++d)
-        text += fmt::format("    vec3 w{} = zonal_{}_face_direction(vec3(w[{}], w[{}], w[{}]));\n", d,
+        text += fmt::format("    highp vec3 w{} = zonal_{}_face_direction(vec3(w[{}], w[{}], w[{}]));\n", d,
                             unit.name, 3 * d, 3 * d + 1, 3 * d + 2);
-    text += fmt::format("    vec3 samples[{}];\n{}", coefficients, print_bands(unit, rotation));
-    text += fmt::format("    vec3 turned[{}];\n    zonal_{}_rotate_low(R, low, turned);\n", low, unit.name);
+    text += fmt::format("    highp vec3 samples[{}];\n{}", coefficients, print_bands(unit, rotation));
+    text += fmt::format("    highp vec3 turned[{}];\n    zonal_{}_rotate_low(R, low, turned);\n", low, unit.name);
     for (int i = 0; i < low; ++i) text += fmt::format("    o[{0}] = turned[{0}];\n", i);
     return text + "}\n";
 }

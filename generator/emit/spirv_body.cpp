@@ -127,8 +127,8 @@ class BodyPrinter {
                 "%{0}_{1}_bits = OpBitcast %uint {2}\n%{0}_{1} = OpBitwiseAnd %uint %{0}_{1}_bits {3}\n",
                 name, suffix, value, mask);
         };
-        bits("size", node.operands[0], size_mask);
-        bits("sign", node.operands[1], sign_mask);
+        bits("size", node.operands[1], size_mask);
+        bits("sign", node.operands[2], sign_mask);
         body_ += fmt::format(
             "%{0}_bits = OpBitwiseOr %uint %{0}_size %{0}_sign\n%{0} = OpBitcast %float %{0}_bits\n", name);
     }

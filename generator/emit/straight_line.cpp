@@ -77,7 +77,8 @@ class StatementPrinter {
             case Op::square_root:
                 return fmt::format("sqrt({})", text(0));
             case Op::copy_sign:
-                return syntax_.copy_sign(text(0), text(1));
+                return syntax_.copy_sign(kernel_.graph[node.operands[0]].value,
+                                         kernel_.graph[node.operands[1]].value, text(2));
             case Op::constant:
             case Op::input:
                 break;

@@ -17,7 +17,9 @@ class Syntax {
     virtual std::string constant(const graph::Number& value) const = 0;
     /// a * b + c, in one instruction where the target has it.
     virtual std::string fused(const std::string& a, const std::string& b, const std::string& c) const = 0;
-    virtual std::string copy_sign(const std::string& size, const std::string& sign) const = 0;
+    /// A constant, given in double and in single precision, with the sign of a value.
+    virtual std::string copy_sign(const graph::Number& size, const graph::Number& size_in_float,
+                                  const std::string& sign) const = 0;
 };
 
 /// a * b + c where a language has nothing better; a negated c is subtracted.

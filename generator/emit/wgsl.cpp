@@ -23,9 +23,11 @@ class WgslSyntax : public Syntax {
         return product_and_sum(a, b, c);
     }
     /// By bits: a comparison with 0 would take -0 for +0.
-    std::string copy_sign(const std::string& size, const std::string& sign) const override {
+    std::string copy_sign(const graph::Number&, const graph::Number& size_in_float,
+                          const std::string& sign) const override {
         return fmt::format(
-            "bitcast<f32>((bitcast<u32>({}) & 0x7fffffffu) | (bitcast<u32>({}) & 0x80000000u))", size, sign);
+            "bitcast<f32>((bitcast<u32>({}) & 0x7fffffffu) | (bitcast<u32>({}) & 0x80000000u))",
+            float_literal(size_in_float), sign);
     }
 };
 

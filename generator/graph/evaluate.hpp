@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "graph/schedule.hpp"
@@ -48,7 +49,7 @@ class Evaluator {
             case Op::square_root:
                 return std::sqrt(operand(0));
             case Op::copy_sign:
-                return std::copysign(operand(0), operand(1));
+                return std::copysign(operand(std::is_same_v<T, float> ? 1 : 0), operand(2));
         }
         return T(0);
     }

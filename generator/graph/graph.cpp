@@ -165,7 +165,10 @@ Id Graph::divide(Id a, Id b) { return rotation_scalar(Op::divide, {a, b}); }
 
 Id Graph::square_root(Id a) { return rotation_scalar(Op::square_root, {a}); }
 
-Id Graph::copy_sign(Id size, Id sign) { return rotation_scalar(Op::copy_sign, {size, sign}); }
+Id Graph::copy_sign(const Number& size, const Number& size_in_float, Id sign) {
+    const Id in_double = constant(size), in_float = constant(size_in_float);
+    return rotation_scalar(Op::copy_sign, {in_double, in_float, sign});
+}
 
 void Graph::set_name(Id id, const std::string& name) {
     if (nodes_[id].name.empty()) nodes_[id].name = name;

@@ -20,8 +20,8 @@ using Number = exact::Real;
 enum class Kind { constant, rotation, signal };
 
 /// `fused` is (±a) * b ± c, rounded once where the target can.
-/// `copy_sign` is the first operand's size with the second one's sign. Division, root and copied sign make
-/// rotation scalars only.
+/// `copy_sign` is a constant with the last operand's sign: the first operand, in single precision the second one.
+/// Division, root and copied sign make rotation scalars only.
 enum class Op { constant, input, negate, add, subtract, multiply, fused, divide, square_root, copy_sign };
 
 /// Names a node of one graph; smaller ids were made earlier, so ids are a topological order.
@@ -73,7 +73,7 @@ class Graph {
     Id negate(Id a);
     Id divide(Id a, Id b);
     Id square_root(Id a);
-    Id copy_sign(Id size, Id sign);
+    Id copy_sign(const Number& size, const Number& size_in_float, Id sign);
     /// (±a) * b ± c. For passes; builders write products and sums.
     Id fused(Id a, Id b, Id c, bool negated_product, bool negated_addend);
     /// The product with a signed constant kept as it is, the difference the way round it is written. For
@@ -128,8 +128,9 @@ inline Value operator*(Value a, Value b) { return {a.graph, a.graph->multiply(a.
 inline Value operator/(Value a, Value b) { return {a.graph, a.graph->divide(a.id, b.id)}; }
 inline Value operator-(Value a) { return {a.graph, a.graph->negate(a.id)}; }
 inline Value sqrt(Value a) { return {a.graph, a.graph->square_root(a.id)}; }
-inline Value copysign(const Number& size, Value sign) {
-    return {sign.graph, sign.graph->copy_sign(sign.graph->constant(size), sign.id)};
+/// What is small beside rounding and large beside the smallest numbers depends on the precision: hence two sizes.
+inline Value copysign(const Number& size, const Number& size_in_float, Value sign) {
+    return {sign.graph, sign.graph->copy_sign(size, size_in_float, sign.id)};
 }
 inline Value operator/(const Number& a, Value b) {
     return {b.graph, b.graph->divide(b.graph->constant(a), b.id)};

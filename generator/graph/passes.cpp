@@ -43,9 +43,11 @@ Id rebuild(Graph& graph, const Node& node, const std::vector<Id>& moved) {
         case Op::square_root:
             id = graph.square_root(operand(0));
             break;
-        case Op::copy_sign:
-            id = graph.copy_sign(operand(0), operand(1));
+        case Op::copy_sign: {
+            const Number size = graph[operand(0)].value, size_in_float = graph[operand(1)].value;
+            id = graph.copy_sign(size, size_in_float, operand(2));
             break;
+        }
         case Op::fused:
             id = graph.fused(operand(0), operand(1), operand(2), node.negated_product, node.negated_addend);
             break;

@@ -46,7 +46,7 @@ struct Counts {
         std::vector<double> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
         CountingSignal::tally = {};
         compiled.rotate_counting_signal(rotation.data(), f.data(), result.data());
-        const std::string kernel = N == 2 ? "rotate" : "rotate_channels";
+        const std::string kernel = N <= 3 ? "rotate" : "rotate_channels";
         EXPECT_EQ(text_of(CountingSignal::tally), banner::cost(N, kernel).further);
     }
 
@@ -56,7 +56,7 @@ struct Counts {
         struct Goal {
             int multiplications, instructions, rgb_instructions;
         };
-        const std::map<int, Goal> goals{{3, {43, 44, 124}},   {4, {112, 118, 284}}, {5, {193, 201, 509}},
+        const std::map<int, Goal> goals{{3, {43, 44, 132}},   {4, {112, 118, 284}}, {5, {193, 201, 509}},
                                         {6, {303, 311, 812}}, {7, {475, 0, 0}},     {8, {665, 0, 0}},
                                         {9, {905, 0, 0}},     {10, {1200, 0, 0}}};
         if (!goals.contains(N)) return;

@@ -139,6 +139,25 @@ std::vector<Case> hard_rotations(std::mt19937_64& random) {
     return cases;
 }
 
+std::vector<Case> tiny_tilts(std::mt19937_64& random) {
+    std::uniform_real_distribution<Real> angle(-kPi, kPi);
+    const Exact quarter_turn{0, -1, 0, 1, 0, 0, 0, 0, 1};
+    std::vector<Case> cases;
+    for (int half_decade = 18; half_decade <= 50; ++half_decade) {
+        const Real sine = std::pow(Real(10), -Real(half_decade) / 2), cosine = std::sqrt(1 - sine * sine);
+        for (const Real pole : {Real(1), Real(-1)}) {
+            const Exact tilt{pole * cosine, 0, sine, 0, 1, 0, -sine, 0, pole * cosine};
+            for (const Exact& after : {quarter_turn, turn({0, 0, 1}, angle(random))}) {
+                const std::string name = fmt::format("tilt of {:.1e} from a pole", static_cast<double>(sine));
+                cases.push_back({name, rounded(product_of(after, tilt))});
+                const Exact before = turn({0, 0, 1}, angle(random));
+                cases.push_back({name, rounded(product_of(after, product_of(tilt, before)))});
+            }
+        }
+    }
+    return cases;
+}
+
 Matrix with_noise(Matrix rotation, double noise, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
     for (double& entry : rotation) entry += noise * normal(random) / 3;

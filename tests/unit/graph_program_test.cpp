@@ -93,7 +93,7 @@ T compute_number(const Loop& loop, const std::vector<T>& x) {
         case Op::square_root:
             return std::sqrt(x[0]);
         case Op::copy_sign:
-            return std::copysign(x[0], x[1]);
+            return std::copysign(std::is_same_v<T, float> ? x[1] : x[0], x[2]);
     }
     return T(0);
 }

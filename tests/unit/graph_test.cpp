@@ -50,14 +50,14 @@ TEST(Graph, a_signal_has_no_quotient_root_or_sign) {
     const Id r = graph.input(Kind::rotation, 0, 0), f = graph.input(Kind::signal, 1, 0);
     EXPECT_THROW(graph.divide(r, f), std::logic_error);
     EXPECT_THROW(graph.square_root(f), std::logic_error);
-    EXPECT_THROW(graph.copy_sign(r, f), std::logic_error);
+    EXPECT_THROW(graph.copy_sign(1, 1, f), std::logic_error);
     EXPECT_EQ(graph[graph.divide(r, graph.square_root(r))].kind, Kind::rotation);
 }
 
 TEST(Counts, divisions_and_roots_are_other_and_a_copied_sign_is_nothing) {
     Kernel kernel = empty_kernel();
     const Value x = kernel.input(0, 0);
-    kernel.store(0, (x / sqrt(x + copysign(Number(1), x))) * kernel.input(1, 0), 0);
+    kernel.store(0, (x / sqrt(x + copysign(Number(1), Number(1), x))) * kernel.input(1, 0), 0);
     const Cost cost = count_operations(kernel);
     EXPECT_EQ(cost.per_rotation.other, 2);
     EXPECT_EQ(cost.per_rotation.add, 1);

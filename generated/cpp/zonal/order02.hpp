@@ -27,30 +27,60 @@
 
 #include <type_traits>
 
+#if !defined(__GNUC__)
+#include <cmath>
+#endif
+
+#ifndef ZONAL_HOST_DEVICE
+// Kernels are functions of both sides where a compiler for GPUs reads this.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define ZONAL_HOST_DEVICE __host__ __device__
+#else
+#define ZONAL_HOST_DEVICE
+#endif
+// Always inlined: files compiled for different targets must not share a copy.
+#if defined(__GNUC__)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE __forceinline
+#else
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline
+#endif
+#endif
+
 namespace zonal::order2 {
+
+// What kernels use beside + - * /. T and V may have functions of their own, found by argument-dependent lookup.
+namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
-// Always inlined: files compiled for different targets must not share a copy.
-#if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-[[gnu::always_inline]] inline float fma(float a, float b, float c) {
-    return __builtin_fmaf(a, b, c);
+template <class S, class V>
+ZONAL_INLINE V fma(const S& a, const V& b, const V& c) {
+    return a * b + c;
 }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) {
-    return __builtin_fma(a, b, c);
-}
-#else
-[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
+#if !defined(ZONAL_NO_FMA) && defined(__GNUC__) && \
+    (defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__))
+ZONAL_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+ZONAL_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
 #endif
-[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
-[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
-[[gnu::always_inline]] inline float copysign(float size, float sign) {
-    return __builtin_copysignf(size, sign);
-}
-[[gnu::always_inline]] inline double copysign(double size, double sign) {
-    return __builtin_copysign(size, sign);
-}
+#if defined(__GNUC__)
+ZONAL_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+ZONAL_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return __builtin_copysignf(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return __builtin_copysign(size, sign); }
+#else
+ZONAL_INLINE float sqrt(float a) { return std::sqrt(a); }
+ZONAL_INLINE double sqrt(double a) { return std::sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return std::copysign(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return std::copysign(size, sign); }
+#endif
+
+// Whether T computes in single precision: float, and what has float as its value_type.
+template <class T, class = void>
+struct is_single : std::is_same<T, float> {};
+template <class T>
+struct is_single<T, std::void_t<typename T::value_type>> : is_single<typename T::value_type> {};
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -61,6 +91,8 @@ template <class V>
 struct scalar_of<V, std::void_t<typename V::value_type>> {
     using type = typename V::value_type;
 };
+
+}  // namespace detail
 
 /// 1 where the lobe kernels are here, else 0.
 inline constexpr int kHasLobes = 0;
@@ -109,10 +141,12 @@ inline constexpr double kBlocksExcess = 0.55;
 /// out : 4 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 template <class T, class V = T>
-void rotate(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -142,10 +176,11 @@ void rotate(const T* R, const V* f, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// scalars : 9 values, for `apply`.
 /// scalars must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 template <class T>
-void prepare(const T* R, T* scalars) {
+ZONAL_HOST_DEVICE static void prepare(const T* R, T* scalars) {
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -176,7 +211,8 @@ void prepare(const T* R, T* scalars) {
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 template <class T, class V = T>
-void apply(const T* scalars, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
+    using namespace detail;
     const T r11 = scalars[0];
     const T r10 = scalars[1];
     const T r12 = scalars[2];
@@ -209,10 +245,12 @@ void apply(const T* scalars, const V* f, V* out) {
 /// out : 4 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateAccurateBound... + kRotateAccurateExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 template <class T, class V = T>
-void rotate_accurate(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_accurate(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -243,10 +281,11 @@ void rotate_accurate(const T* R, const V* f, V* out) {
 /// dense : 10 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.
 /// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T>
-void blocks(const T* R, T* dense) {
+ZONAL_HOST_DEVICE static void blocks(const T* R, T* dense) {
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];

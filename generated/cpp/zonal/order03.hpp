@@ -3,9 +3,7 @@
 // table   : generator/tables/shared/order03.json  sha256:14ccb4f14330a855
 //           generator/tables/band/band02.json  sha256:6d90acbafdefdfc5
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
-// cost    : rotate_channels 10 mul 4 add 30 fma 0 other;
-//             per extra vector 10 mul 0 add 30 fma 0 other
-//           rotate 12 mul 1 add 31 fma 0 other;
+// cost    : rotate 12 mul 1 add 31 fma 0 other;
 //             per extra vector 12 mul 1 add 31 fma 0 other
 //           prepare 39 mul 10 add 24 fma 0 other;
 //             per extra vector 0 mul 0 add 0 fma 0 other
@@ -43,9 +41,7 @@
 //             per extra vector 0 mul 0 add 0 fma 0 other
 //           stable::rotate_zhf 46 mul 17 add 105 fma 0 other;
 //             per extra vector 18 mul 0 add 38 fma 0 other
-// bound   : rotate_channels relative error 4.1e-07 (float), 7.5e-16 (double),
-//             for det R = +1; excess 2.24
-//           rotate relative error 4.7e-07 (float), 8.6e-16 (double),
+// bound   : rotate relative error 4.7e-07 (float), 8.6e-16 (double),
 //             for det R = +1 or -1; excess 2.23
 //           apply relative error 2.4e-07 (float), 4.4e-16 (double),
 //             for det R = +1 or -1; excess 1.08
@@ -69,30 +65,60 @@
 
 #include <type_traits>
 
+#if !defined(__GNUC__)
+#include <cmath>
+#endif
+
+#ifndef ZONAL_HOST_DEVICE
+// Kernels are functions of both sides where a compiler for GPUs reads this.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define ZONAL_HOST_DEVICE __host__ __device__
+#else
+#define ZONAL_HOST_DEVICE
+#endif
+// Always inlined: files compiled for different targets must not share a copy.
+#if defined(__GNUC__)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE __forceinline
+#else
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline
+#endif
+#endif
+
 namespace zonal::order3 {
+
+// What kernels use beside + - * /. T and V may have functions of their own, found by argument-dependent lookup.
+namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
-// Always inlined: files compiled for different targets must not share a copy.
-#if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-[[gnu::always_inline]] inline float fma(float a, float b, float c) {
-    return __builtin_fmaf(a, b, c);
+template <class S, class V>
+ZONAL_INLINE V fma(const S& a, const V& b, const V& c) {
+    return a * b + c;
 }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) {
-    return __builtin_fma(a, b, c);
-}
-#else
-[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
+#if !defined(ZONAL_NO_FMA) && defined(__GNUC__) && \
+    (defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__))
+ZONAL_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+ZONAL_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
 #endif
-[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
-[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
-[[gnu::always_inline]] inline float copysign(float size, float sign) {
-    return __builtin_copysignf(size, sign);
-}
-[[gnu::always_inline]] inline double copysign(double size, double sign) {
-    return __builtin_copysign(size, sign);
-}
+#if defined(__GNUC__)
+ZONAL_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+ZONAL_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return __builtin_copysignf(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return __builtin_copysign(size, sign); }
+#else
+ZONAL_INLINE float sqrt(float a) { return std::sqrt(a); }
+ZONAL_INLINE double sqrt(double a) { return std::sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return std::copysign(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return std::copysign(size, sign); }
+#endif
+
+// Whether T computes in single precision: float, and what has float as its value_type.
+template <class T, class = void>
+struct is_single : std::is_same<T, float> {};
+template <class T>
+struct is_single<T, std::void_t<typename T::value_type>> : is_single<typename T::value_type> {};
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -103,6 +129,8 @@ template <class V>
 struct scalar_of<V, std::void_t<typename V::value_type>> {
     using type = typename V::value_type;
 };
+
+}  // namespace detail
 
 /// 1 where the lobe kernels are here, else 0.
 inline constexpr int kHasLobes = 1;
@@ -118,12 +146,6 @@ inline constexpr int kScalars = 34;
 
 /// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 1;
-
-/// Largest relative error of rotate_channels for det R = +1 where R is orthonormal,
-/// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateChannelsBoundFloat = 4.1e-07;
-inline constexpr double kRotateChannelsBoundDouble = 7.5e-16;
-inline constexpr double kRotateChannelsExcess = 2.24;
 
 /// Largest relative error of rotate for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
@@ -155,20 +177,20 @@ inline constexpr double kRotateZhfBoundFloat = 6.0e-07;
 inline constexpr double kRotateZhfBoundDouble = 1.2e-15;
 inline constexpr double kRotateZhfExcess = 1.00;
 
-/// The cheapest exact rotation of three vectors at once.
+/// The cheapest exact rotation of one vector.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
+/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 9 values, index l(l+1)+m.
 /// out : 9 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
-/// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
-/// odd bands.
-/// Error: at most (kRotateChannelsBound... + kRotateChannelsExcess |R R^T - I|_F) |f|.
+/// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 template <class T, class V = T>
-void rotate_channels(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -191,127 +213,46 @@ void rotate_channels(const T* R, const V* f, V* out) {
     out[1] = b1_3;
     out[2] = b1_6;
     out[3] = b1_9;
-    const V b2_1 = fma(T(1.7320508075688772), f[6], f[8]);
-    const T b2_2 = r20 + r20;
-    const T b2_3 = r21 + r21;
-    const V b2_4 = b2_3 * f[4];
-    const V b2_5 = fma(b2_2, f[8], b2_4);
-    const V b2_6 = fma(r22, f[7], b2_5);
-    const V b2_7 = b2_3 * f[5];
-    const V b2_8 = fma(r20, f[7], b2_7);
-    const V b2_9 = fma(r22, b2_1, b2_8);
-    const T b2_10 = r00 + r00;
-    const T b2_11 = r01 + r01;
-    const V b2_12 = b2_11 * f[4];
-    const V b2_13 = fma(b2_10, f[8], b2_12);
-    const V b2_14 = fma(r02, f[7], b2_13);
-    const V b2_15 = b2_11 * f[5];
-    const V b2_16 = fma(r00, f[7], b2_15);
-    const V b2_17 = fma(r02, b2_1, b2_16);
-    const V b2_18 = r02 * f[4];
-    const V b2_19 = fma(r00, f[5], -b2_18);
-    const V b2_20 = r12 * f[4];
-    const V b2_21 = fma(r10, f[5], -b2_20);
-    const V b2_22 = r22 * f[4];
-    const V b2_23 = fma(r20, f[5], -b2_22);
-    const V b2_24 = fma(-r20, b2_6, b2_1);
-    const V b2_25 = fma(-r22, b2_9, b2_24);
-    const V b2_26 = fma(T(0.5), b2_25, f[8]);
-    const V b2_27 = fma(-r10, b2_14, b2_23);
-    const V b2_28 = fma(r10, b2_6, b2_19);
-    const V b2_29 = fma(r12, b2_9, b2_28);
-    const V b2_30 = fma(T(-0.8660254037844386), b2_25, f[6]);
-    const V b2_31 = fma(-r00, b2_6, b2_21);
-    const V b2_32 = fma(-r00, b2_14, b2_26);
-    const V b2_33 = fma(r12, b2_17, -b2_27);
-    const V b2_34 = fma(r02, b2_9, -b2_31);
-    const V b2_35 = fma(r02, b2_17, -b2_32);
-    out[4] = b2_33;
-    out[5] = b2_29;
-    out[6] = b2_30;
-    out[7] = b2_34;
+    const V b2_1 = f[8] + f[8];
+    const V b2_2 = fma(T(1.7320508075688772), f[6], f[8]);
+    const V b2_3 = r21 * f[4];
+    const V b2_4 = fma(r20, b2_1, b2_3);
+    const V b2_5 = fma(r22, f[7], b2_4);
+    const V b2_6 = r22 * f[5];
+    const V b2_7 = fma(r20, f[4], b2_6);
+    const V b2_8 = r21 * f[5];
+    const V b2_9 = fma(r20, f[7], b2_8);
+    const V b2_10 = fma(r22, b2_2, b2_9);
+    const V b2_11 = r01 * f[4];
+    const V b2_12 = fma(r00, b2_1, b2_11);
+    const V b2_13 = fma(r02, f[7], b2_12);
+    const V b2_14 = r02 * f[5];
+    const V b2_15 = fma(r00, f[4], b2_14);
+    const V b2_16 = r01 * f[5];
+    const V b2_17 = fma(r00, f[7], b2_16);
+    const V b2_18 = fma(r02, b2_2, b2_17);
+    const V b2_19 = fma(-r20, b2_5, b2_2);
+    const V b2_20 = fma(-r21, b2_7, b2_19);
+    const V b2_21 = fma(-r22, b2_10, b2_20);
+    const V b2_22 = fma(T(0.5), b2_21, f[8]);
+    const V b2_23 = r11 * b2_15;
+    const V b2_24 = fma(r10, b2_13, b2_23);
+    const V b2_25 = fma(r12, b2_18, b2_24);
+    const V b2_26 = r11 * b2_7;
+    const V b2_27 = fma(r10, b2_5, b2_26);
+    const V b2_28 = fma(r12, b2_10, b2_27);
+    const V b2_29 = fma(T(-0.8660254037844386), b2_21, f[6]);
+    const V b2_30 = r01 * b2_7;
+    const V b2_31 = fma(r00, b2_5, b2_30);
+    const V b2_32 = fma(r02, b2_10, b2_31);
+    const V b2_33 = fma(-r00, b2_13, b2_22);
+    const V b2_34 = fma(-r01, b2_15, b2_33);
+    const V b2_35 = fma(r02, b2_18, -b2_34);
+    out[4] = b2_25;
+    out[5] = b2_28;
+    out[6] = b2_29;
+    out[7] = b2_32;
     out[8] = b2_35;
-}
-
-/// The cheapest exact rotation of one vector.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
-/// Bands are independent: a NaN stays in its band.
-/// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
-/// f : 9 values, index l(l+1)+m.
-/// out : 9 values, index l(l+1)+m.
-/// out may be f; they must not overlap in part.
-/// Where V is not T, a value of several channels, this is rotate_channels.
-/// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
-/// Cost: see the banner.
-/// Source: low bands as tensors, contracted with the rows of R.
-template <class T, class V = T>
-void rotate(const T* R, const V* f, V* out) {
-    if constexpr (!std::is_same_v<T, V>) {
-        rotate_channels(R, f, out);
-    } else {
-        const T r00 = R[0];
-        const T r01 = R[1];
-        const T r02 = R[2];
-        const T r10 = R[3];
-        const T r11 = R[4];
-        const T r12 = R[5];
-        const T r20 = R[6];
-        const T r21 = R[7];
-        const T r22 = R[8];
-        out[0] = f[0];
-        const V b1_1 = r11 * f[1];
-        const V b1_2 = fma(r10, f[3], b1_1);
-        const V b1_3 = fma(r12, f[2], b1_2);
-        const V b1_4 = r21 * f[1];
-        const V b1_5 = fma(r20, f[3], b1_4);
-        const V b1_6 = fma(r22, f[2], b1_5);
-        const V b1_7 = r01 * f[1];
-        const V b1_8 = fma(r00, f[3], b1_7);
-        const V b1_9 = fma(r02, f[2], b1_8);
-        out[1] = b1_3;
-        out[2] = b1_6;
-        out[3] = b1_9;
-        const V b2_1 = f[8] + f[8];
-        const V b2_2 = fma(T(1.7320508075688772), f[6], f[8]);
-        const V b2_3 = r21 * f[4];
-        const V b2_4 = fma(r20, b2_1, b2_3);
-        const V b2_5 = fma(r22, f[7], b2_4);
-        const V b2_6 = r22 * f[5];
-        const V b2_7 = fma(r20, f[4], b2_6);
-        const V b2_8 = r21 * f[5];
-        const V b2_9 = fma(r20, f[7], b2_8);
-        const V b2_10 = fma(r22, b2_2, b2_9);
-        const V b2_11 = r01 * f[4];
-        const V b2_12 = fma(r00, b2_1, b2_11);
-        const V b2_13 = fma(r02, f[7], b2_12);
-        const V b2_14 = r02 * f[5];
-        const V b2_15 = fma(r00, f[4], b2_14);
-        const V b2_16 = r01 * f[5];
-        const V b2_17 = fma(r00, f[7], b2_16);
-        const V b2_18 = fma(r02, b2_2, b2_17);
-        const V b2_19 = fma(-r20, b2_5, b2_2);
-        const V b2_20 = fma(-r21, b2_7, b2_19);
-        const V b2_21 = fma(-r22, b2_10, b2_20);
-        const V b2_22 = fma(T(0.5), b2_21, f[8]);
-        const V b2_23 = r11 * b2_15;
-        const V b2_24 = fma(r10, b2_13, b2_23);
-        const V b2_25 = fma(r12, b2_18, b2_24);
-        const V b2_26 = r11 * b2_7;
-        const V b2_27 = fma(r10, b2_5, b2_26);
-        const V b2_28 = fma(r12, b2_10, b2_27);
-        const V b2_29 = fma(T(-0.8660254037844386), b2_21, f[6]);
-        const V b2_30 = r01 * b2_7;
-        const V b2_31 = fma(r00, b2_5, b2_30);
-        const V b2_32 = fma(r02, b2_10, b2_31);
-        const V b2_33 = fma(-r00, b2_13, b2_22);
-        const V b2_34 = fma(-r01, b2_15, b2_33);
-        const V b2_35 = fma(r02, b2_18, -b2_34);
-        out[4] = b2_25;
-        out[5] = b2_28;
-        out[6] = b2_29;
-        out[7] = b2_32;
-        out[8] = b2_35;
-    }
 }
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
@@ -319,11 +260,13 @@ void rotate(const T* R, const V* f, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// scalars : 34 values, for `apply`.
 /// scalars must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T>
-void prepare(const T* R, T* scalars) {
+ZONAL_HOST_DEVICE static void prepare(const T* R, T* scalars) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -453,7 +396,8 @@ void prepare(const T* R, T* scalars) {
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T, class V = T>
-void apply(const T* scalars, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
+    using namespace detail;
     const T r11 = scalars[0];
     const T r10 = scalars[1];
     const T r12 = scalars[2];
@@ -541,10 +485,12 @@ void apply(const T* scalars, const V* f, V* out) {
 /// out : 9 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateAccurateBound... + kRotateAccurateExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 template <class T, class V = T>
-void rotate_accurate(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_accurate(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -630,10 +576,12 @@ void rotate_accurate(const T* R, const V* f, V* out) {
 /// dense : 35 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.
 /// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T>
-void blocks(const T* R, T* dense) {
+ZONAL_HOST_DEVICE static void blocks(const T* R, T* dense) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -759,8 +707,9 @@ void blocks(const T* R, T* dense) {
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
-template <class V, class T = typename scalar_of<V>::type>
-void factorize(const V* f, V* z) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void factorize(const V* f, V* z) {
+    using namespace detail;
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
     z[0] = b0_d0_1;
     const V b1_d0_1 = T(1.7724538509055161) * f[2];
@@ -792,8 +741,9 @@ void factorize(const V* f, V* z) {
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
-template <class V, class T = typename scalar_of<V>::type>
-void expand(const V* z, V* f) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void expand(const V* z, V* f) {
+    using namespace detail;
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
     const V b1_m0_1 = T(0.28209479177387814) * z[2];
@@ -828,8 +778,9 @@ void expand(const V* z, V* f) {
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
-template <class V, class T = typename scalar_of<V>::type>
-void resample(const V* samples, V* out) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void resample(const V* samples, V* out) {
+    using namespace detail;
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
     out[0] = b0_m0_1;
     const V b1_m0_1 = T(1.7724538509055161) * samples[1];
@@ -859,10 +810,11 @@ void resample(const V* samples, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 15 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
-void lobes(const T* R, T* directions) {
+ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -920,10 +872,12 @@ void lobes(const T* R, T* directions) {
 /// out : 9 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateZhfBound... + kRotateZhfExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 template <class T, class V = T>
-void rotate_zhf(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_zhf(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -1047,8 +1001,9 @@ namespace per_band {
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
-template <class V, class T = typename scalar_of<V>::type>
-void factorize(const V* f, V* z) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void factorize(const V* f, V* z) {
+    using namespace detail;
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
     z[0] = b0_d0_1;
     const V b1_d0_1 = T(2.046653415892977) * f[1];
@@ -1078,8 +1033,9 @@ void factorize(const V* f, V* z) {
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
-template <class V, class T = typename scalar_of<V>::type>
-void expand(const V* z, V* f) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void expand(const V* z, V* f) {
+    using namespace detail;
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
     const V b1_m0_1 = T(0.48860251190291992) * z[1];
@@ -1111,8 +1067,9 @@ void expand(const V* z, V* f) {
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
-template <class V, class T = typename scalar_of<V>::type>
-void resample(const V* samples, V* out) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void resample(const V* samples, V* out) {
+    using namespace detail;
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
     out[0] = b0_m0_1;
     const V b1_m0_1 = T(2.046653415892977) * samples[1];
@@ -1140,10 +1097,11 @@ void resample(const V* samples, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 27 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
-void lobes(const T* R, T* directions) {
+ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -1222,8 +1180,9 @@ inline constexpr double kRotateZhfExcess = 1.00;
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
-template <class V, class T = typename scalar_of<V>::type>
-void factorize(const V* f, V* z) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void factorize(const V* f, V* z) {
+    using namespace detail;
     const V b0_d0_1 = T(0.7089815403622064) * f[0];
     const V b1_d0_1 = T(1.1013582948542135) * f[2];
     const V b1_d0_2 = fma(T(0.88182758713160292), f[3], b1_d0_1);
@@ -1269,8 +1228,9 @@ void factorize(const V* f, V* z) {
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
-template <class V, class T = typename scalar_of<V>::type>
-void expand(const V* z, V* f) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void expand(const V* z, V* f) {
+    using namespace detail;
     const V b0_m0_1 = z[0] + z[1];
     const V b0_m0_2 = z[2] + b0_m0_1;
     const V b0_m0_3 = z[3] + b0_m0_2;
@@ -1323,8 +1283,9 @@ void expand(const V* z, V* f) {
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
-template <class V, class T = typename scalar_of<V>::type>
-void resample(const V* samples, V* out) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void resample(const V* samples, V* out) {
+    using namespace detail;
     const V b0_m0_1 = samples[0] + samples[1];
     const V b0_m0_2 = samples[2] + b0_m0_1;
     const V b0_m0_3 = samples[3] + b0_m0_2;
@@ -1374,10 +1335,12 @@ void resample(const V* samples, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 15 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
-void lobes(const T* R, T* directions) {
+ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -1447,10 +1410,12 @@ void lobes(const T* R, T* directions) {
 /// out : 9 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateZhfBound... + kRotateZhfExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 template <class T, class V = T>
-void rotate_zhf(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_zhf(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];

@@ -77,30 +77,60 @@
 
 #include <type_traits>
 
+#if !defined(__GNUC__)
+#include <cmath>
+#endif
+
+#ifndef ZONAL_HOST_DEVICE
+// Kernels are functions of both sides where a compiler for GPUs reads this.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define ZONAL_HOST_DEVICE __host__ __device__
+#else
+#define ZONAL_HOST_DEVICE
+#endif
+// Always inlined: files compiled for different targets must not share a copy.
+#if defined(__GNUC__)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define ZONAL_INLINE ZONAL_HOST_DEVICE __forceinline
+#else
+#define ZONAL_INLINE ZONAL_HOST_DEVICE inline
+#endif
+#endif
+
 namespace zonal::order9 {
+
+// What kernels use beside + - * /. T and V may have functions of their own, found by argument-dependent lookup.
+namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
 // ZONAL_NO_FMA: always a product and a sum; with -ffp-contract=off the same bits everywhere.
-// Always inlined: files compiled for different targets must not share a copy.
-#if !defined(ZONAL_NO_FMA) && (defined(__FMA__) || defined(__ARM_FEATURE_FMA))
-[[gnu::always_inline]] inline float fma(float a, float b, float c) {
-    return __builtin_fmaf(a, b, c);
+template <class S, class V>
+ZONAL_INLINE V fma(const S& a, const V& b, const V& c) {
+    return a * b + c;
 }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) {
-    return __builtin_fma(a, b, c);
-}
-#else
-[[gnu::always_inline]] inline float fma(float a, float b, float c) { return a * b + c; }
-[[gnu::always_inline]] inline double fma(double a, double b, double c) { return a * b + c; }
+#if !defined(ZONAL_NO_FMA) && defined(__GNUC__) && \
+    (defined(__FMA__) || defined(__ARM_FEATURE_FMA) || defined(__CUDA_ARCH__))
+ZONAL_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+ZONAL_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
 #endif
-[[gnu::always_inline]] inline float sqrt(float a) { return __builtin_sqrtf(a); }
-[[gnu::always_inline]] inline double sqrt(double a) { return __builtin_sqrt(a); }
-[[gnu::always_inline]] inline float copysign(float size, float sign) {
-    return __builtin_copysignf(size, sign);
-}
-[[gnu::always_inline]] inline double copysign(double size, double sign) {
-    return __builtin_copysign(size, sign);
-}
+#if defined(__GNUC__)
+ZONAL_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+ZONAL_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return __builtin_copysignf(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return __builtin_copysign(size, sign); }
+#else
+ZONAL_INLINE float sqrt(float a) { return std::sqrt(a); }
+ZONAL_INLINE double sqrt(double a) { return std::sqrt(a); }
+ZONAL_INLINE float copysign(float size, float sign) { return std::copysign(size, sign); }
+ZONAL_INLINE double copysign(double size, double sign) { return std::copysign(size, sign); }
+#endif
+
+// Whether T computes in single precision: float, and what has float as its value_type.
+template <class T, class = void>
+struct is_single : std::is_same<T, float> {};
+template <class T>
+struct is_single<T, std::void_t<typename T::value_type>> : is_single<typename T::value_type> {};
 
 // The scalar that multiplies a signal value: V itself, or V::value_type where V is a vector.
 template <class V, class = void>
@@ -111,6 +141,8 @@ template <class V>
 struct scalar_of<V, std::void_t<typename V::value_type>> {
     using type = typename V::value_type;
 };
+
+}  // namespace detail
 
 /// 1 where the lobe kernels are here, else 0.
 inline constexpr int kHasLobes = 1;
@@ -173,11 +205,13 @@ inline constexpr double kRotateZhfExcess = 4.00;
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// Error: at most (kRotateChannelsBound... + kRotateChannelsExcess |R R^T - I|_F) |f|.
+/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 template <class T, class V = T>
-void rotate_channels(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_channels(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -200,7 +234,7 @@ void rotate_channels(const T* R, const V* f, V* out) {
     out[1] = b1_3;
     out[2] = b1_6;
     out[3] = b1_9;
-    const T euler_1 = copysign(T(1.0000000000000001e-18), r02);
+    const T euler_1 = copysign(T(is_single<T>::value ? 1e-15 : 1e-18), r02);
     const T x = r02 + euler_1;
     const T euler_2 = r12 * r12;
     const T euler_3 = fma(x, x, euler_2);
@@ -1187,11 +1221,13 @@ void rotate_channels(const T* R, const V* f, V* out) {
 /// odd bands.
 /// Where V is not T, a value of several channels, this is rotate_channels.
 /// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
+/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 template <class T, class V = T>
-void rotate(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate(const T* R, const V* f, V* out) {
+    using namespace detail;
     if constexpr (!std::is_same_v<T, V>) {
         rotate_channels(R, f, out);
     } else {
@@ -1217,7 +1253,7 @@ void rotate(const T* R, const V* f, V* out) {
         out[1] = b1_3;
         out[2] = b1_6;
         out[3] = b1_9;
-        const T euler_1 = copysign(T(1.0000000000000001e-18), r02);
+        const T euler_1 = copysign(T(is_single<T>::value ? 1e-15 : 1e-18), r02);
         const T x = r02 + euler_1;
         const T euler_2 = r12 * r12;
         const T euler_3 = fma(x, x, euler_2);
@@ -2172,11 +2208,13 @@ void rotate(const T* R, const V* f, V* out) {
 /// scalars must not overlap R.
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
+/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 template <class T>
-void prepare(const T* R, T* scalars) {
+ZONAL_HOST_DEVICE static void prepare(const T* R, T* scalars) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -2186,7 +2224,7 @@ void prepare(const T* R, T* scalars) {
     const T r20 = R[6];
     const T r21 = R[7];
     const T r22 = R[8];
-    const T euler_1 = copysign(T(1.0000000000000001e-18), r02);
+    const T euler_1 = copysign(T(is_single<T>::value ? 1e-15 : 1e-18), r02);
     const T x = r02 + euler_1;
     const T euler_2 = r12 * r12;
     const T euler_3 = fma(x, x, euler_2);
@@ -2608,7 +2646,8 @@ void prepare(const T* R, T* scalars) {
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 template <class T, class V = T>
-void apply(const T* scalars, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
+    using namespace detail;
     const T r11 = scalars[0];
     const T r10 = scalars[1];
     const T r12 = scalars[2];
@@ -3605,11 +3644,13 @@ void apply(const T* scalars, const V* f, V* out) {
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateAccurateBound... + kRotateAccurateExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T, class V = T>
-void rotate_accurate(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_accurate(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -9863,10 +9904,12 @@ void rotate_accurate(const T* R, const V* f, V* out) {
 /// dense : 969 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.
 /// Error: at most (kBlocksBound... + kBlocksExcess |R R^T - I|_F) |signal|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 template <class T>
-void blocks(const T* R, T* dense) {
+ZONAL_HOST_DEVICE static void blocks(const T* R, T* dense) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -16257,8 +16300,9 @@ void blocks(const T* R, T* dense) {
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
-template <class V, class T = typename scalar_of<V>::type>
-void factorize(const V* f, V* z) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void factorize(const V* f, V* z) {
+    using namespace detail;
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
     z[0] = b0_d0_1;
     const V b1_d0_1 = T(2.046653415892977) * f[2];
@@ -16728,8 +16772,9 @@ void factorize(const V* f, V* z) {
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
-template <class V, class T = typename scalar_of<V>::type>
-void expand(const V* z, V* f) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void expand(const V* z, V* f) {
+    using namespace detail;
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
     const V b1_m0_1 = T(0.3454941494713355) * z[2];
@@ -17171,8 +17216,9 @@ void expand(const V* z, V* f) {
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
-template <class V, class T = typename scalar_of<V>::type>
-void resample(const V* samples, V* out) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void resample(const V* samples, V* out) {
+    using namespace detail;
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
     out[0] = b0_m0_1;
     const V b1_m0_1 = T(2.046653415892977) * samples[3];
@@ -17661,10 +17707,12 @@ void resample(const V* samples, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 51 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
-void lobes(const T* R, T* directions) {
+ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -17824,10 +17872,12 @@ void lobes(const T* R, T* directions) {
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateZhfBound... + kRotateZhfExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 template <class T, class V = T>
-void rotate_zhf(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_zhf(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -21207,8 +21257,9 @@ namespace per_band {
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
-template <class V, class T = typename scalar_of<V>::type>
-void factorize(const V* f, V* z) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void factorize(const V* f, V* z) {
+    using namespace detail;
     const V b0_d0_1 = T(3.5449077018110322) * f[0];
     z[0] = b0_d0_1;
     const V b1_d0_1 = T(2.046653415892977) * f[1];
@@ -21529,8 +21580,9 @@ void factorize(const V* f, V* z) {
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
-template <class V, class T = typename scalar_of<V>::type>
-void expand(const V* z, V* f) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void expand(const V* z, V* f) {
+    using namespace detail;
     const V b0_m0_1 = T(0.28209479177387814) * z[0];
     f[0] = b0_m0_1;
     const V b1_m0_1 = T(0.48860251190291992) * z[1];
@@ -21909,8 +21961,9 @@ void expand(const V* z, V* f) {
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
-template <class V, class T = typename scalar_of<V>::type>
-void resample(const V* samples, V* out) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void resample(const V* samples, V* out) {
+    using namespace detail;
     const V b0_m0_1 = T(3.5449077018110322) * samples[0];
     out[0] = b0_m0_1;
     const V b1_m0_1 = T(2.046653415892977) * samples[1];
@@ -22280,10 +22333,12 @@ void resample(const V* samples, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 243 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
-void lobes(const T* R, T* directions) {
+ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -22911,8 +22966,9 @@ inline constexpr double kRotateZhfExcess = 4.00;
 /// z may be f; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 7 and the one after it.
-template <class V, class T = typename scalar_of<V>::type>
-void factorize(const V* f, V* z) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void factorize(const V* f, V* z) {
+    using namespace detail;
     const V b0_d0_1 = T(0.20852398245947248) * f[0];
     const V b1_d0_1 = T(0.85790636171408763) * f[2];
     const V b1_d0_2 = fma(T(0.24318921905474353), f[3], b1_d0_1);
@@ -23759,8 +23815,9 @@ void factorize(const V* f, V* z) {
 /// f may be z; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, section 4.
-template <class V, class T = typename scalar_of<V>::type>
-void expand(const V* z, V* f) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void expand(const V* z, V* f) {
+    using namespace detail;
     const V b0_m0_1 = z[0] + z[1];
     const V b0_m0_2 = z[2] + b0_m0_1;
     const V b0_m0_3 = z[3] + b0_m0_2;
@@ -24680,8 +24737,9 @@ void expand(const V* z, V* f) {
 /// out may be samples; they must not overlap in part.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 11.
-template <class V, class T = typename scalar_of<V>::type>
-void resample(const V* samples, V* out) {
+template <class V, class T = typename detail::scalar_of<V>::type>
+ZONAL_HOST_DEVICE static void resample(const V* samples, V* out) {
+    using namespace detail;
     const V b0_m0_1 = samples[0] + samples[1];
     const V b0_m0_2 = samples[2] + b0_m0_1;
     const V b0_m0_3 = samples[3] + b0_m0_2;
@@ -25598,10 +25656,12 @@ void resample(const V* samples, V* out) {
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 51 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 9.
 template <class T>
-void lobes(const T* R, T* directions) {
+ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];
@@ -25797,10 +25857,12 @@ void lobes(const T* R, T* directions) {
 /// out : 81 values, index l(l+1)+m.
 /// out may be f; they must not overlap in part.
 /// Error: at most (kRotateZhfBound... + kRotateZhfExcess |R R^T - I|_F) |f|.
+/// May be differentiated: T and V may be numbers that carry derivatives.
 /// Cost: see the banner.
 /// Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 template <class T, class V = T>
-void rotate_zhf(const T* R, const V* f, V* out) {
+ZONAL_HOST_DEVICE static void rotate_zhf(const T* R, const V* f, V* out) {
+    using namespace detail;
     const T r00 = R[0];
     const T r01 = R[1];
     const T r02 = R[2];

@@ -29,6 +29,8 @@ inline constexpr std::size_t kLanes = hn::MaxLanes(Tag<T>());
 template <class T>
 class Pack {
   public:
+    using value_type = T;
+
     Pack() = default;
     explicit HWY_INLINE Pack(Lanes<T> values) : lanes(values) {}
     explicit HWY_INLINE Pack(int value) : lanes(hn::Set(Tag<T>(), static_cast<T>(value))) {}
