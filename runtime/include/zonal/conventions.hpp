@@ -45,12 +45,10 @@ ZONAL_API RotationMatrix<T> kernel_rotation(Convention convention, const Rotatio
 /// Converts one signal into our basis: the same function of the same (x, y, z), so that `evaluate` applies.
 /// in, out  : order^2 values each; the same span, or separate ones.
 /// Errors   : zonal::Error when the convention does not have the order, a span has the wrong length, the
-/// spans
-///            overlap in part, or, for e3nn, the order is not among compiled_orders(); `out` is then
+///            spans overlap in part, or, for e3nn, the order is not among compiled_orders(); `out` is then
 ///            untouched.
-/// Accuracy : a rounded factor and a rounded product a value, 3/2 epsilons; exact where the factor is 1 or
-/// -1;
-///            e3nn: that of zonal::rotate, which turns the polar axis.
+/// Accuracy : a rounded factor and a rounded product a value, 3/2 epsilons; exact where the factor is 1
+///            or -1; e3nn: that of zonal::rotate, which turns the polar axis.
 /// Cost     : one multiplication a value; e3nn: one rotation. A NaN or infinity stays in its coefficient
 ///            (e3nn: in its band).
 ZONAL_API void to_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);

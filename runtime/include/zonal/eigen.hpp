@@ -3,8 +3,8 @@
 // Eigen's matrices, quaternions, angle-axes and vectors where zonal takes rotations and directions. The only
 // header of zonal::rotate and zonal::light that needs Eigen (3.4): link Eigen3::Eigen beside them.
 //
-//     const zonal::RotationMatrix<float> rotation(Eigen::AngleAxisf(angle_rad, axis));   // or a 3x3, a
-//     quaternion zonal::evaluate_basis(order, Eigen::Vector3d(x, y, z), values);
+//     const zonal::RotationMatrix<float> rotation(Eigen::AngleAxisf(angle_rad, axis));
+//     zonal::evaluate_basis(order, Eigen::Vector3d(x, y, z), values);
 //
 // Eigen stores matrices column-major unless told otherwise, so m.data() of an Eigen::Matrix3f is R^T; these
 // conversions keep the meaning of m(row, column).

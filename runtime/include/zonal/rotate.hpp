@@ -18,8 +18,7 @@ ZONAL_API std::span<const int> compiled_orders();
 ///            They may be the same span; they must not overlap in part. No alignment is needed.
 ///            A NaN or infinity stays within its band.
 /// Errors   : zonal::Error when the order is not compiled in, a span has the wrong length, or the spans
-/// overlap
-///            in part; `out` is then untouched.
+///            overlap in part; `out` is then untouched.
 /// Accuracy and cost: those of `zonal::orderN::rotate`, see the banner of zonal/orderNN.hpp.
 ZONAL_API void rotate(int order, const RotationMatrix<float>& rotation, std::span<const float> in,
                       std::span<float> out);

@@ -82,11 +82,12 @@ struct SignalTables {
 };
 
 /// Tables whose bound is within the budget. Coarser levels of low bands save cache, not memory: the array
-/// holds every layer at every level. order   : one whose lobe kernels are compiled in. signal  : order^2
-/// coefficients, index l(l+1)+m; norms and errors are taken over all channels together. Errors  :
-/// zonal::Error when the order has no lobes here, the signal is of another length, zero, not finite
-///           or, for half, possibly beyond 65504; when an option is out of range; when no tables of this
-///           format and at most `largest_face` texels reach the budget.
+/// holds every layer at every level.
+/// order   : one whose lobe kernels are compiled in.
+/// signal  : order^2 coefficients, index l(l+1)+m; norms and errors are taken over all channels together.
+/// Errors  : zonal::Error when the order has no lobes here, the signal is of another length, zero, not
+///           finite or, for half, possibly beyond 65504; when an option is out of range; when no tables of
+///           this format and at most `largest_face` texels reach the budget.
 /// Half of the squared budget chooses level 0, the other half coarser levels of low bands; what is left then
 /// makes all of them smaller.
 template <class T>
