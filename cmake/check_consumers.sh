@@ -30,4 +30,9 @@ check strict_warnings_by_g++ strict_warnings -DCMAKE_CXX_COMPILER=g++
 check strict_warnings_by_clang++ strict_warnings -DCMAKE_CXX_COMPILER=clang++
 check plugin plugin -DCMAKE_CXX_FLAGS=-O1
 check plugin_with_shared_libraries plugin -DCMAKE_CXX_FLAGS=-O1 -DBUILD_SHARED_LIBS=ON
+shared=$work/plugin_with_shared_libraries/zonal/runtime/libzonal_rotate.so
+if [ -f "$shared" ] && nm -DC --defined-only "$shared" | grep 'zonal::order'; then
+  echo "libzonal_rotate.so: found the kernels above among what it exports, wanted what ZONAL_API marks" >&2
+  exit 1
+fi
 check no_exceptions no_exceptions
