@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs a finished build into a prefix under build/, then builds, runs and tests tests/consumer against it.
+# Installs a finished build into a prefix under build/, then builds, runs and tests tests/consumer/installed against it.
 #   bash cmake/check_install.sh [BUILD_FOLDER, default build/release]
 # With zonal-gen in the build, it also has the installed program write kernels, and checks what it says of
 # mistakes. Exit status not zero and the output of the step that failed, when one fails.
@@ -27,7 +27,7 @@ test -s "$prefix/share/doc/zonal/LICENSE"
 has_generator=OFF
 if [ -x "$prefix/bin/zonal-gen" ]; then has_generator=ON; fi
 consumer() { # FOLDER [options]
-  cmake -S "$root/tests/consumer" -B "$work/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
+  cmake -S "$root/tests/consumer/installed" -B "$work/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
     -DCONSUMER_HAS_GENERATOR=$has_generator "${@:2}"
 }
 quietly consumer consumer

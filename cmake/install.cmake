@@ -3,15 +3,18 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/zonal")
 
-# One export set per component, so that kernels alone need no library to be found.
+# One export set per component, so that each looks for what it needs and no more.
 set_target_properties(zonal_generated PROPERTIES EXPORT_NAME generated)
-set_target_properties(zonal_runtime PROPERTIES EXPORT_NAME runtime)
-install(TARGETS zonal_generated EXPORT zonal-generated INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-install(TARGETS zonal_runtime EXPORT zonal-runtime INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-set_target_properties(zonal_parallel PROPERTIES EXPORT_NAME parallel)
-install(TARGETS zonal_parallel EXPORT zonal-parallel)
-install(TARGETS zonal-rotate-map)
-set(components generated runtime parallel)
+get_property(components GLOBAL PROPERTY ZONAL_BUILT_LIBRARIES)
+foreach(component IN LISTS components)
+  install(TARGETS zonal_${component} EXPORT zonal-${component} INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+endforeach()
+if(ZONAL_BUILD_APPS)
+  # Beside it in lib/ where libraries are shared, wherever the package is moved to.
+  file(RELATIVE_PATH up "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+  set_target_properties(zonal-rotate-map PROPERTIES INSTALL_RPATH "\$ORIGIN/${up}")
+  install(TARGETS zonal-rotate-map)
+endif()
 if(ZONAL_BUILD_GENERATOR)
   install(TARGETS zonal-gen EXPORT zonal-generator)
   install(DIRECTORY generator/tables/ DESTINATION "${CMAKE_INSTALL_DATADIR}/zonal/tables"
@@ -28,6 +31,11 @@ install(DIRECTORY "${ZONAL_GENERATED_DIR}/zonal" runtime/include/zonal
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
+# What static libraries are linked with has to be found by who links them; shared ones bring it.
+set(static_needs_packages ON)
+if(BUILD_SHARED_LIBS)
+  set(static_needs_packages OFF)
+endif()
 set(installed_tables "${CMAKE_INSTALL_DATADIR}/zonal/tables")
 configure_package_config_file(cmake/zonal-config.cmake.in "${PROJECT_BINARY_DIR}/zonal-config.cmake"
   INSTALL_DESTINATION "${package_folder}" PATH_VARS installed_tables)

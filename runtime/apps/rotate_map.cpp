@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "zonal/basis.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/environment_map.hpp"
 #include "zonal/error.hpp"
 #include "zonal/png.hpp"
@@ -61,7 +62,7 @@ Coefficients rotated_by_kernel(int order, const Coefficients& coefficients,
                                const zonal::RotationMatrix<double>& rotation) {
     std::vector<zonal::Rgb<float>> signal;
     for (const auto& value : coefficients) signal.push_back(value.cast<float>());
-    zonal::rotate(order, zonal::RotationMatrix<float>(rotation.matrix()), signal, signal);
+    zonal::rotate(order, rotation.cast<float>(), signal, signal);
     Coefficients rotated;
     for (const auto& value : signal) rotated.push_back(value.cast<double>());
     return rotated;
@@ -105,8 +106,9 @@ void run(const Options& options) {
     const zonal::EnvironmentMap map = zonal::read_environment_map(options.map);
     const Coefficients coefficients = zonal::project(options.order, map);
     const Coefficients by_kernel = rotated_by_kernel(options.order, coefficients, rotation);
-    const Coefficients by_evaluation = zonal::project(options.order, [&](const Eigen::Vector3d& direction) {
-        return zonal::evaluate(options.order, coefficients, rotation.matrix().transpose() * direction);
+    const Coefficients by_evaluation = zonal::project(options.order, [&](const zonal::Direction& direction) {
+        const Eigen::Vector3d source = rotation.matrix().transpose() * zonal::to_eigen(direction);
+        return zonal::evaluate(options.order, coefficients, source);
     });
 
     const auto before = zonal::reconstruct(options.order, coefficients, kPanelHeight);

@@ -28,6 +28,7 @@
 #include "support/counting.hpp"
 #include "support/hard_cases.hpp"
 #include "zonal/batch.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/rotate.hpp"
 
 namespace zonal::bench {

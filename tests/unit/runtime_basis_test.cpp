@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "zonal/basis.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 
 namespace {

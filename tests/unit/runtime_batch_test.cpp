@@ -21,6 +21,7 @@
 #include "support/oracle.hpp"
 #include "zonal/basis.hpp"
 #include "zonal/batch.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/parallel.hpp"
 #include "zonal/rotate.hpp"

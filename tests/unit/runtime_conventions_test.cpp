@@ -12,6 +12,7 @@
 
 #include "zonal/basis.hpp"
 #include "zonal/conventions.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotate.hpp"
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "zonal/eigen.hpp"
 #include "zonal/environment_map.hpp"
 #include "zonal/error.hpp"
 
@@ -131,11 +132,12 @@ TEST(runtime_environment_map, corner_and_middle_texels_look_where_the_convention
     const double h = std::numbers::sqrt2 / 2;
     const std::array<Eigen::Vector3d, 4> wanted = {{{h, h, 0}, {-h, h, 0}, {-h, -h, 0}, {h, -h, 0}}};
     for (int column = 0; column < 4; ++column) {
-        EXPECT_TRUE(zonal::texel_direction(4, 1, column, 0).isApprox(wanted[column], 1e-15)) << column;
+        EXPECT_TRUE(zonal::to_eigen(zonal::texel_direction(4, 1, column, 0)).isApprox(wanted[column], 1e-15))
+            << column;
     }
-    EXPECT_GT(zonal::texel_direction(1024, 512, 0, 0).z(), 0.99);
-    EXPECT_LT(zonal::texel_direction(1024, 512, 0, 511).z(), -0.99);
-    EXPECT_GT(zonal::texel_direction(1024, 512, 256, 256).y(), 0.99);
+    EXPECT_GT(zonal::texel_direction(1024, 512, 0, 0).z, 0.99);
+    EXPECT_LT(zonal::texel_direction(1024, 512, 0, 511).z, -0.99);
+    EXPECT_GT(zonal::texel_direction(1024, 512, 256, 256).y, 0.99);
 }
 
 TEST(runtime_environment_map, studio_map_is_read_whole) {

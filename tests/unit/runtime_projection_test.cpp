@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zonal/basis.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/projection.hpp"
 

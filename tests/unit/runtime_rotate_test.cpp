@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "zonal/basis.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotate.hpp"
 

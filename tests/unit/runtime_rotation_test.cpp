@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotation.hpp"
 
@@ -46,6 +50,39 @@ TEST(runtime_rotation, quarter_turn_about_z_stores_the_images_of_the_axes_as_col
     const double y_into_x = rotation.data()[3 * 0 + 1];
     EXPECT_DOUBLE_EQ(x_into_y, 1.0);
     EXPECT_DOUBLE_EQ(y_into_x, -1.0);
+}
+
+/// Rows 1 2 3, 4 5 6, 7 8 9: no rotation, but no two constructions may disagree on it.
+TEST(runtime_rotation, nine_values_arrays_and_pointers_are_read_row_by_row) {
+    const RotationMatrix<float> wanted(1, 2, 3, 4, 5, 6, 7, 8, 9);
+    EXPECT_EQ(wanted(0, 1), 2);
+    EXPECT_EQ(wanted(2, 0), 7);
+    const float plain[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const std::array<float, 9> array = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    EXPECT_EQ(RotationMatrix<float>(plain), wanted);
+    EXPECT_EQ(RotationMatrix<float>(array), wanted);
+    EXPECT_EQ(RotationMatrix<float>(std::span(array)), wanted);
+    EXPECT_EQ(RotationMatrix<float>::from_row_major(array.data()), wanted);
+    EXPECT_EQ(wanted.cast<double>(), RotationMatrix<double>(1, 2, 3, 4, 5, 6, 7, 8, 9));
+}
+
+TEST(runtime_rotation, quaternion_of_either_order_agrees_with_the_matrix_it_was_made_of) {
+    const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+    const Eigen::Matrix3d wanted = turn.toRotationMatrix();  // by sine and cosine of the angle itself
+    const Eigen::Quaterniond q(turn);
+    const auto wxyz = RotationMatrix<double>::from_quaternion_wxyz(q.w(), q.x(), q.y(), q.z());
+    EXPECT_LT((wxyz.matrix() - wanted).norm(), 8 * std::numeric_limits<double>::epsilon());
+    EXPECT_EQ(RotationMatrix<double>::from_quaternion_xyzw(q.x(), q.y(), q.z(), q.w()), wxyz);
+}
+
+TEST(runtime_rotation, quaternion_off_by_e_in_norm_is_off_by_eight_root_two_e_at_a_half_turn) {
+    const double e = 1e-6;
+    const Eigen::Vector3d axis = Eigen::Vector3d(3, -2, 1).normalized();
+    for (const double norm : {1 + e, 1 - e}) {
+        const Eigen::Vector3d v = norm * axis;
+        const auto r = RotationMatrix<double>::from_quaternion_wxyz(0, v.x(), v.y(), v.z());
+        EXPECT_NEAR(zonal::orthonormality_error(r), 8 * std::sqrt(2.0) * e, 100 * e * e);
+    }
 }
 
 TEST(runtime_rotation, expression_is_accepted) {

@@ -14,6 +14,7 @@
 
 #include "support/cube_map.hpp"
 #include "support/oracle.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/orders.hpp"
 #include "zonal/rotation.hpp"

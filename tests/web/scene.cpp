@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "zonal/eigen.hpp"
 #include "zonal/environment_map.hpp"
 #include "zonal/projection.hpp"
 

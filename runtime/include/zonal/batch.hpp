@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 
+#include "zonal/api.hpp"
 #include "zonal/rotation.hpp"
 
 namespace zonal {
@@ -77,21 +78,21 @@ using Executor = std::function<void(std::size_t count,
 /// executor  : none: the calling thread does all.
 /// Cost      : no allocation; SIMD packs of 4 to 16 vectors chosen for the processor at run time.
 ///             Batches of more than 32 MiB without gaps, not in place, are written past the caches.
-void rotate_each(int order, const RotationMatrices<float>& rotations, const BatchLayout& layout,
-                 std::span<const float> in, std::span<float> out, const Executor& executor = {});
-void rotate_each(int order, const RotationMatrices<double>& rotations, const BatchLayout& layout,
-                 std::span<const double> in, std::span<double> out, const Executor& executor = {});
-void rotate_each(int order, const RotationQuaternions<float>& rotations, const BatchLayout& layout,
-                 std::span<const float> in, std::span<float> out, const Executor& executor = {});
-void rotate_each(int order, const RotationQuaternions<double>& rotations, const BatchLayout& layout,
-                 std::span<const double> in, std::span<double> out, const Executor& executor = {});
+ZONAL_API void rotate_each(int order, const RotationMatrices<float>& rotations, const BatchLayout& layout,
+                           std::span<const float> in, std::span<float> out, const Executor& executor = {});
+ZONAL_API void rotate_each(int order, const RotationMatrices<double>& rotations, const BatchLayout& layout,
+                           std::span<const double> in, std::span<double> out, const Executor& executor = {});
+ZONAL_API void rotate_each(int order, const RotationQuaternions<float>& rotations, const BatchLayout& layout,
+                           std::span<const float> in, std::span<float> out, const Executor& executor = {});
+ZONAL_API void rotate_each(int order, const RotationQuaternions<double>& rotations, const BatchLayout& layout,
+                           std::span<const double> in, std::span<double> out, const Executor& executor = {});
 
 /// Turns every vector of a batch by one rotation; what depends on the rotation only is computed once.
 /// All else as in `rotate_each`; a NaN or infinity in the rotation spoils every vector. Three interleaved
 /// channels of float are as accurate as `blocks` in orders 3 to 6 where there is SSE4 or NEON.
-void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,
-                std::span<const float> in, std::span<float> out, const Executor& executor = {});
-void rotate_all(int order, const RotationMatrix<double>& rotation, const BatchLayout& layout,
-                std::span<const double> in, std::span<double> out, const Executor& executor = {});
+ZONAL_API void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,
+                          std::span<const float> in, std::span<float> out, const Executor& executor = {});
+ZONAL_API void rotate_all(int order, const RotationMatrix<double>& rotation, const BatchLayout& layout,
+                          std::span<const double> in, std::span<double> out, const Executor& executor = {});
 
 }  // namespace zonal

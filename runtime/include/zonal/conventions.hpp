@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zonal/api.hpp"
 #include "zonal/rgb.hpp"
 #include "zonal/rotation.hpp"
 
@@ -27,10 +28,10 @@ enum class Convention {
 };
 
 /// The convention of that name (see Convention). Errors: zonal::Error names the value and the valid names.
-Convention convention_from_name(std::string_view name);
+ZONAL_API Convention convention_from_name(std::string_view name);
 
 /// All valid names, `3dgs` and its alias `khr_gaussian_splatting` both.
-std::vector<std::string_view> convention_names();
+ZONAL_API std::vector<std::string_view> convention_names();
 
 /// The matrix that makes a kernel of ours turn the convention's coefficients as they are:
 /// `rotate(order, kernel_rotation(convention, R), in, out)` equals `rotate(convention, order, R, in, out)`
@@ -39,30 +40,32 @@ std::vector<std::string_view> convention_names();
 /// Result  : P R P^T, P a signed permutation of the axes; of R^T for directx. Exact.
 /// Beware  : not for vectors that went through to_zonal; those turn by R itself (by M^T for directx).
 template <class T>
-RotationMatrix<T> kernel_rotation(Convention convention, const RotationMatrix<T>& rotation);
+ZONAL_API RotationMatrix<T> kernel_rotation(Convention convention, const RotationMatrix<T>& rotation);
 
 /// Converts one signal into our basis: the same function of the same (x, y, z), so that `evaluate` applies.
 /// in, out  : order^2 values each; the same span, or separate ones.
 /// Errors   : zonal::Error when the convention does not have the order, a span has the wrong length, the
-/// spans
-///            overlap in part, or, for e3nn, the order is not among compiled_orders(); `out` is then
+///            spans overlap in part, or, for e3nn, the order is not among compiled_orders(); `out` is then
 ///            untouched.
-/// Accuracy : a rounded factor and a rounded product a value, 3/2 epsilons; exact where the factor is 1 or
-/// -1;
-///            e3nn: that of zonal::rotate, which turns the polar axis.
+/// Accuracy : a rounded factor and a rounded product a value, 3/2 epsilons; exact where the factor is 1
+///            or -1; e3nn: that of zonal::rotate, which turns the polar axis.
 /// Cost     : one multiplication a value; e3nn: one rotation. A NaN or infinity stays in its coefficient
 ///            (e3nn: in its band).
-void to_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);
-void to_zonal(Convention convention, int order, std::span<const double> in, std::span<double> out);
-void to_zonal(Convention convention, int order, std::span<const Rgb<float>> in, std::span<Rgb<float>> out);
-void to_zonal(Convention convention, int order, std::span<const Rgb<double>> in, std::span<Rgb<double>> out);
+ZONAL_API void to_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);
+ZONAL_API void to_zonal(Convention convention, int order, std::span<const double> in, std::span<double> out);
+ZONAL_API void to_zonal(Convention convention, int order, std::span<const Rgb<float>> in,
+                        std::span<Rgb<float>> out);
+ZONAL_API void to_zonal(Convention convention, int order, std::span<const Rgb<double>> in,
+                        std::span<Rgb<double>> out);
 
 /// The inverse of to_zonal, with the same contract.
-void from_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);
-void from_zonal(Convention convention, int order, std::span<const double> in, std::span<double> out);
-void from_zonal(Convention convention, int order, std::span<const Rgb<float>> in, std::span<Rgb<float>> out);
-void from_zonal(Convention convention, int order, std::span<const Rgb<double>> in,
-                std::span<Rgb<double>> out);
+ZONAL_API void from_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);
+ZONAL_API void from_zonal(Convention convention, int order, std::span<const double> in,
+                          std::span<double> out);
+ZONAL_API void from_zonal(Convention convention, int order, std::span<const Rgb<float>> in,
+                          std::span<Rgb<float>> out);
+ZONAL_API void from_zonal(Convention convention, int order, std::span<const Rgb<double>> in,
+                          std::span<Rgb<double>> out);
 
 /// Rotates one signal given in a convention by a matrix given in that convention; the result is in it too.
 /// The function turns: f'(w) = f(R^T w), where R acts on columns (directx: R = M^T); mirrors are allowed.
@@ -72,13 +75,13 @@ void from_zonal(Convention convention, int order, std::span<const Rgb<double>> i
 ///            untouched.
 /// Accuracy and cost: those of zonal::rotate, for the change of R is exact. fuma and unity_l2 add two
 ///            multiplications a value, of 3/2 epsilons each.
-void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,
-            std::span<const float> in, std::span<float> out);
-void rotate(Convention convention, int order, const RotationMatrix<double>& rotation,
-            std::span<const double> in, std::span<double> out);
-void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,
-            std::span<const Rgb<float>> in, std::span<Rgb<float>> out);
-void rotate(Convention convention, int order, const RotationMatrix<double>& rotation,
-            std::span<const Rgb<double>> in, std::span<Rgb<double>> out);
+ZONAL_API void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,
+                      std::span<const float> in, std::span<float> out);
+ZONAL_API void rotate(Convention convention, int order, const RotationMatrix<double>& rotation,
+                      std::span<const double> in, std::span<double> out);
+ZONAL_API void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,
+                      std::span<const Rgb<float>> in, std::span<Rgb<float>> out);
+ZONAL_API void rotate(Convention convention, int order, const RotationMatrix<double>& rotation,
+                      std::span<const Rgb<double>> in, std::span<Rgb<double>> out);
 
 }  // namespace zonal

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
+#include "zonal/api.hpp"
+#include "zonal/direction.hpp"
 #include "zonal/rgb.hpp"
 
 namespace zonal {
@@ -22,17 +24,19 @@ struct EnvironmentMap {
     int height = 0;
     std::vector<Rgb<float>> texels = {};
 
-    const Rgb<float>& at(int column, int row) const {
-        return texels[static_cast<std::size_t>(row) * width + column];
+    const Rgb<float>& at(int column, int row) const { return texels[index_of(column, row)]; }
+    Rgb<float>& at(int column, int row) { return texels[index_of(column, row)]; }
+    std::size_t index_of(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(column);
     }
-    Rgb<float>& at(int column, int row) { return texels[static_cast<std::size_t>(row) * width + column]; }
 };
 
 /// A black map of 2 height x height texels. Precondition: height > 0.
-EnvironmentMap black_map(int height);
+ZONAL_API EnvironmentMap black_map(int height);
 
 /// The unit vector through the centre of a texel, in the convention of EnvironmentMap.
-Eigen::Vector3d texel_direction(int width, int height, int column, int row);
+ZONAL_API Direction texel_direction(int width, int height, int column, int row);
 
 /// Reads a map from OpenEXR (any lossless compression or DWA) or Radiance .hdr, told apart by their first
 /// bytes. Channels R, G and B are read, others ignored; exposure and colour-space fields are not applied.
@@ -41,12 +45,12 @@ Eigen::Vector3d texel_direction(int width, int height, int column, int row);
 /// named). DWA rounds in a frequency space, so a black texel may decode to a small negative value: a DWA file
 /// may hold values down to -1e-6 times its largest. They are kept as decoded, since clamping noise of zero
 /// mean would bias every integral.
-EnvironmentMap read_environment_map(const std::filesystem::path& path);
+ZONAL_API EnvironmentMap read_environment_map(const std::filesystem::path& path);
 
 /// |a - b| times `scale` in every channel. Precondition: maps of one size.
-EnvironmentMap absolute_difference(const EnvironmentMap& a, const EnvironmentMap& b, float scale);
+ZONAL_API EnvironmentMap absolute_difference(const EnvironmentMap& a, const EnvironmentMap& b, float scale);
 
 /// The largest value of any channel; 0 for an empty map or one without positive values.
-float largest_value(const EnvironmentMap& map);
+ZONAL_API float largest_value(const EnvironmentMap& map);
 
 }  // namespace zonal

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "zonal/api.hpp"
+
 namespace zonal {
 
 /// What a user needs to know to mend a mistake. `file` is empty when no file is involved.
@@ -16,7 +18,7 @@ struct Problem {
 
 /// The one exception that leaves the runtime (besides std::bad_alloc).
 /// what(): "<file>: <field>: found <found>, wanted <wanted>; <next step>", on one line.
-class Error : public std::runtime_error {
+class ZONAL_API Error : public std::runtime_error {
   public:
     explicit Error(const Problem& problem);
 };

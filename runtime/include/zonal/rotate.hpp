@@ -2,13 +2,14 @@
 
 #include <span>
 
+#include "zonal/api.hpp"
 #include "zonal/rgb.hpp"
 #include "zonal/rotation.hpp"
 
 namespace zonal {
 
 /// The orders that `rotate` accepts, ascending: those of ZONAL_ORDERS when the library was configured.
-std::span<const int> compiled_orders();
+ZONAL_API std::span<const int> compiled_orders();
 
 /// Rotates one SH vector of the given order (order N: N^2 coefficients, degrees 0 to N-1).
 /// rotation : turns the function, f'(w) = f(R^T w); mirrors too (det R = -1).
@@ -17,18 +18,17 @@ std::span<const int> compiled_orders();
 ///            They may be the same span; they must not overlap in part. No alignment is needed.
 ///            A NaN or infinity stays within its band.
 /// Errors   : zonal::Error when the order is not compiled in, a span has the wrong length, or the spans
-/// overlap
-///            in part; `out` is then untouched.
+///            overlap in part; `out` is then untouched.
 /// Accuracy and cost: those of `zonal::orderN::rotate`, see the banner of zonal/orderNN.hpp.
-void rotate(int order, const RotationMatrix<float>& rotation, std::span<const float> in,
-            std::span<float> out);
-void rotate(int order, const RotationMatrix<double>& rotation, std::span<const double> in,
-            std::span<double> out);
+ZONAL_API void rotate(int order, const RotationMatrix<float>& rotation, std::span<const float> in,
+                      std::span<float> out);
+ZONAL_API void rotate(int order, const RotationMatrix<double>& rotation, std::span<const double> in,
+                      std::span<double> out);
 
 /// The same for three channels; what depends on the rotation only is computed once.
-void rotate(int order, const RotationMatrix<float>& rotation, std::span<const Rgb<float>> in,
-            std::span<Rgb<float>> out);
-void rotate(int order, const RotationMatrix<double>& rotation, std::span<const Rgb<double>> in,
-            std::span<Rgb<double>> out);
+ZONAL_API void rotate(int order, const RotationMatrix<float>& rotation, std::span<const Rgb<float>> in,
+                      std::span<Rgb<float>> out);
+ZONAL_API void rotate(int order, const RotationMatrix<double>& rotation, std::span<const Rgb<double>> in,
+                      std::span<Rgb<double>> out);
 
 }  // namespace zonal

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "zonal/api.hpp"
 #include "zonal/rgb.hpp"
 
 namespace zonal {
@@ -66,7 +67,7 @@ struct SignalTablePlan {
     int size_at(int level) const { return face_size >> level; }
     /// Where a face begins: texels are stored by level, layer, face (+x, -x, +y, -y, +z, -z), row, column. So
     /// a level is one copy from a buffer to 6 layer_count() layers of a Vulkan image.
-    std::size_t first_texel(int level, int layer = 0, int face = 0) const;
+    ZONAL_API std::size_t first_texel(int level, int layer = 0, int face = 0) const;
     std::size_t texel_count() const { return first_texel(level_count); }
 };
 
@@ -81,24 +82,25 @@ struct SignalTables {
 };
 
 /// Tables whose bound is within the budget. Coarser levels of low bands save cache, not memory: the array
-/// holds every layer at every level. order   : one whose lobe kernels are compiled in. signal  : order^2
-/// coefficients, index l(l+1)+m; norms and errors are taken over all channels together. Errors  :
-/// zonal::Error when the order has no lobes here, the signal is of another length, zero, not finite
-///           or, for half, possibly beyond 65504; when an option is out of range; when no tables of this
-///           format and at most `largest_face` texels reach the budget.
+/// holds every layer at every level.
+/// order   : one whose lobe kernels are compiled in.
+/// signal  : order^2 coefficients, index l(l+1)+m; norms and errors are taken over all channels together.
+/// Errors  : zonal::Error when the order has no lobes here, the signal is of another length, zero, not
+///           finite or, for half, possibly beyond 65504; when an option is out of range; when no tables of
+///           this format and at most `largest_face` texels reach the budget.
 /// Half of the squared budget chooses level 0, the other half coarser levels of low bands; what is left then
 /// makes all of them smaller.
 template <class T>
-SignalTablePlan plan_signal_tables(int order, std::span<const Rgb<float>> signal,
-                                   const SignalTableOptions& options);
+ZONAL_API SignalTablePlan plan_signal_tables(int order, std::span<const Rgb<float>> signal,
+                                             const SignalTableOptions& options);
 
 /// The plan and its texels. Cost: about order^2 multiplications a texel.
 template <class T>
-SignalTables<T> build_signal_tables(int order, std::span<const Rgb<float>> signal,
-                                    const SignalTableOptions& options);
+ZONAL_API SignalTables<T> build_signal_tables(int order, std::span<const Rgb<float>> signal,
+                                              const SignalTableOptions& options);
 
 /// The unit direction of a texel of a face with `size` texels along an edge: Vulkan's and OpenGL's faces and
 /// their (s, t), columns along s, rows along t, stretched.
-Eigen::Vector3d face_texel_direction(int size, int face, int row, int column);
+ZONAL_API Eigen::Vector3d face_texel_direction(int size, int face, int row, int column);
 
 }  // namespace zonal

@@ -2,11 +2,9 @@
 
 #include "zonal/batch.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cstdint>
 
+#include "core/text.hpp"
 #include "targets.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotate.hpp"
@@ -39,8 +37,8 @@ const batch::Kernel<T>& kernel_of(int order) {
     const batch::KernelTable<T> table = batch::kernels<T>();
     for (int i = 0; i < table.count; ++i)
         if (table.kernels[i].order == order) return table.kernels[i];
-    throw_problem("order", fmt::format("{}", order),
-                  fmt::format("an order that is compiled in: {}", fmt::join(compiled_orders(), ", ")),
+    throw_problem("order", text_of(order),
+                  joined("an order that is compiled in: ", list_of(compiled_orders())),
                   "add the order to cmake/orders.cmake, generate its kernels and build again");
 }
 
@@ -49,14 +47,14 @@ template <class T>
 Runs<T> checked_runs(const char* field, std::span<const T> span, std::size_t count, std::size_t length,
                      std::size_t stride) {
     if (stride < length)
-        throw_problem(fmt::format("stride of {}", field), fmt::format("{}", stride),
-                      fmt::format("at least {}, the values of one", length),
+        throw_problem(joined("stride of ", field), text_of(stride),
+                      joined("at least ", length, ", the values of one"),
                       "give the distance from one to the next in values");
     const bool fits = count == 0 || (span.size() >= length && (span.size() - length) / stride >= count - 1);
     if (!fits)
-        throw_problem(fmt::format("length of {}", field), fmt::format("{}", span.size()),
-                      fmt::format("{} for {} of {} values, {} apart", length + (count - 1) * stride, count,
-                                  length, stride),
+        throw_problem(joined("length of ", field), text_of(span.size()),
+                      joined(length + (count - 1) * stride, " for ", count, " of ", length, " values, ",
+                             stride, " apart"),
                       "pass every value of the batch, or a smaller count");
     return {field, span.data(), count, length, stride};
 }
@@ -74,7 +72,7 @@ void check_apart(const Runs<T>& a, const Runs<T>& b) {
                                                          : (period - (begin_a - begin_b) % period) % period;
         if (b_after_a >= a.length * sizeof(T) && period - b_after_a >= b.length * sizeof(T)) return;
     }
-    throw_problem(fmt::format("{} and {}", a.field, b.field), "arrays that overlap in part",
+    throw_problem(joined(a.field, " and ", b.field), "arrays that overlap in part",
                   "separate arrays (in and out may also be the same)", "rotate into a separate array");
 }
 
@@ -82,7 +80,7 @@ template <class T>
 batch::Job<T> checked_job(int order, const Runs<T>& rotations, batch::RotationForm form,
                           const BatchLayout& layout, std::span<const T> in, std::span<T> out) {
     if (layout.channels < 1)
-        throw_problem("layout.channels", fmt::format("{}", layout.channels), "at least 1",
+        throw_problem("layout.channels", text_of(layout.channels), "at least 1",
                       "give the number of channels of a vector");
     const auto channels = static_cast<std::size_t>(layout.channels);
     const std::size_t coefficients = static_cast<std::size_t>(order) * order - (layout.dc_apart ? 1 : 0);

@@ -1,7 +1,5 @@
 #include "zonal/environment_map.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include "core/text.hpp"
 #include "image_readers.hpp"
 #include "zonal/error.hpp"
+#include "zonal/finite.hpp"
 
 namespace zonal {
 namespace {
@@ -65,10 +65,10 @@ void check_texels(const std::filesystem::path& path, const EnvironmentMap& map, 
             const std::array<std::pair<const char*, float>, 3> channels = {
                 {{"red", texel.r}, {"green", texel.g}, {"blue", texel.b}}};
             for (const auto& [name, value] : channels) {
-                if (std::isfinite(value) && value >= lowest) continue;
+                if (detail::is_finite(value) && value >= lowest) continue;
                 throw Error({.file = path.string(),
-                             .field = fmt::format("texel at column {}, row {}, {}", column, row, name),
-                             .found = fmt::format("{}", value),
+                             .field = joined("texel at column ", column, ", row ", row, ", ", name),
+                             .found = text_of(value),
                              .wanted = "a finite value that is not negative",
                              .next_step = "repair the map, for instance by painting over this texel"});
             }
@@ -89,12 +89,12 @@ EnvironmentMap black_map_for_file(const std::filesystem::path& path, int width, 
     throw Error(
         {.file = path.string(),
          .field = "size",
-         .found = fmt::format("{} x {} texels", width, height),
-         .wanted = fmt::format("a latitude-longitude map, width = 2 height, of at most {} rows", kMaxHeight),
+         .found = joined(width, " x ", height, " texels"),
+         .wanted = joined("a latitude-longitude map, width = 2 height, of at most ", kMaxHeight, " rows"),
          .next_step = "convert the image to latitude-longitude, or make it smaller"});
 }
 
-Eigen::Vector3d texel_direction(int width, int height, int column, int row) {
+Direction texel_direction(int width, int height, int column, int row) {
     const double theta_rad = std::numbers::pi * (row + 0.5) / height;
     const double phi_rad = 2 * std::numbers::pi * (column + 0.5) / width;
     return {std::sin(theta_rad) * std::cos(phi_rad), std::sin(theta_rad) * std::sin(phi_rad),

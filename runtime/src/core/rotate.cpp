@@ -2,13 +2,11 @@
 
 #include "zonal/rotate.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 
 #include "checks.hpp"
+#include "text.hpp"
 #include "zonal/error.hpp"
 #include "zonal/orders.hpp"
 
@@ -22,8 +20,8 @@ constexpr auto kCompiledOrders = std::to_array<int>({ZONAL_FOR_EACH_ORDER(ZONAL_
 void check_compiled(int order) {
     if (std::ranges::find(kCompiledOrders, order) != kCompiledOrders.end()) return;
     throw Error({.field = "order",
-                 .found = fmt::format("{}", order),
-                 .wanted = fmt::format("an order that is compiled in: {}", fmt::join(kCompiledOrders, ", ")),
+                 .found = text_of(order),
+                 .wanted = joined("an order that is compiled in: ", list_of(kCompiledOrders)),
                  .next_step = "add the order to cmake/orders.cmake, generate its kernels and build again"});
 }
 
@@ -46,8 +44,9 @@ void checked_rotate(int order, const RotationMatrix<T>& rotation, std::span<cons
     check_no_partial_overlap(in, out);
     // Kernels need determinant +1: a mirror is a rotation by -R, then a change of sign in the odd bands.
     if (!is_mirror(rotation)) return dispatch(order, rotation.data(), in.data(), out.data());
-    const RotationMatrix<T> turned(-rotation.matrix());
-    dispatch(order, turned.data(), in.data(), out.data());
+    T turned[9];
+    for (int i = 0; i < 9; ++i) turned[i] = -rotation.data()[i];
+    dispatch(order, turned, in.data(), out.data());
     for (int l = 1; l < order; l += 2)
         for (int i = l * l; i < (l + 1) * (l + 1); ++i) out[i] = -out[i];
 }

@@ -3,12 +3,12 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <fmt/format.h>
 
 #include <exception>
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
 #include "image_readers.hpp"
 #include "zonal/error.hpp"
 
@@ -18,13 +18,13 @@ namespace {
 void check_channels(const std::filesystem::path& path, const Imf::ChannelList& channels) {
     std::string names;
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-        names += names.empty() ? channel.name() : fmt::format(", {}", channel.name());
+        names += names.empty() ? channel.name() : joined(", ", channel.name());
     }
     for (const char* wanted : {"R", "G", "B"}) {
         if (channels.findChannel(wanted) != nullptr) continue;
         throw Error({.file = path.string(),
-                     .field = fmt::format("channel {}", wanted),
-                     .found = fmt::format("only channels {}", names.empty() ? "(none)" : names),
+                     .field = joined("channel ", wanted),
+                     .found = joined("only channels ", names.empty() ? "(none)" : names),
                      .wanted = "channels R, G and B",
                      .next_step = "export the map as RGB"});
     }
@@ -66,7 +66,7 @@ DecodedMap read_openexr(const std::filesystem::path& path) {
     } catch (const std::exception& exception) {  // OpenEXR's own, and std::bad_alloc for an absurd size
         throw Error({.file = path.string(),
                      .field = "OpenEXR data",
-                     .found = fmt::format("a truncated, corrupt or unsupported file ({})", exception.what()),
+                     .found = joined("a truncated, corrupt or unsupported file (", exception.what(), ")"),
                      .wanted = "a complete single-part image",
                      .next_step = "fetch or export the file again"});
     }

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <cstdio>
 #include <numbers>
+#include <zonal/eigen.hpp>
 
 #include "probe.hpp"
 

@@ -2,18 +2,18 @@
 
 #include "zonal/signal_tables.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "checks.hpp"
+#include "core/checks.hpp"
+#include "core/text.hpp"
 #include "zonal/basis.hpp"
+#include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
+#include "zonal/finite.hpp"
 #include "zonal/orders.hpp"
 
 namespace zonal {
@@ -45,11 +45,10 @@ void check_lobe_order(int order) {
     static const std::vector<int> orders{ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_LIST_ENTRY)};
 #undef ZONAL_LIST_ENTRY
     if (std::ranges::find(orders, order) != orders.end()) return;
-    throw Error(
-        {.field = "order",
-         .found = fmt::format("{}", order),
-         .wanted = fmt::format("an order that has lobes and is compiled in: {}", fmt::join(orders, ", ")),
-         .next_step = "search a lobe table, add the order to cmake/orders.cmake and build again"});
+    throw Error({.field = "order",
+                 .found = text_of(order),
+                 .wanted = joined("an order that has lobes and is compiled in: ", list_of(orders)),
+                 .next_step = "search a lobe table, add the order to cmake/orders.cmake and build again"});
 }
 
 void resample(int order, const double* samples, double* out) {
@@ -187,9 +186,9 @@ void check_signal(int order, std::span<const Rgb<float>> signal) {
     check_length("signal", order, signal.size());
     for (std::size_t i = 0; i < signal.size(); ++i) {
         for (const float value : {signal[i].r, signal[i].g, signal[i].b}) {
-            if (std::isfinite(value)) continue;
-            throw Error({.field = fmt::format("signal, coefficient {}", i),
-                         .found = fmt::format("{}", value),
+            if (detail::is_finite(value)) continue;
+            throw Error({.field = joined("signal, coefficient ", i),
+                         .found = text_of(value),
                          .wanted = "a finite number",
                          .next_step = "mend the signal"});
         }
@@ -202,26 +201,25 @@ void check_signal(int order, std::span<const Rgb<float>> signal) {
     for (int l = kFirstTableBand; l < order; ++l) {
         const double peak = largest_value(order, l, signal);
         if (peak <= Format<T>::kLargest) continue;
-        throw Error(
-            {.field = fmt::format("signal, band {}", l),
-             .found = fmt::format("values of up to {:.4g}", peak),
-             .wanted = fmt::format("at most {}, the largest {}", Format<T>::kLargest, Format<T>::kName),
-             .next_step = "divide the signal by a power of two and multiply the rotated one by it"});
+        throw Error({.field = joined("signal, band ", l),
+                     .found = joined("values of up to ", rounded(peak, 4)),
+                     .wanted = joined("at most ", Format<T>::kLargest, ", the largest ", Format<T>::kName),
+                     .next_step = "divide the signal by a power of two and multiply the rotated one by it"});
     }
 }
 
 void check_options(const SignalTableOptions& options) {
-    if (!(options.budget > 0) || !std::isfinite(options.budget))
+    if (!(options.budget > 0) || !detail::is_finite(options.budget))
         throw Error({.field = "budget",
-                     .found = fmt::format("{}", options.budget),
+                     .found = text_of(options.budget),
                      .wanted = "a positive number, relative to the norm of the signal",
                      .next_step = "ask for 1e-3, for example"});
     const auto check_range = [](const char* field, int found, int smallest, int largest, const char* limit) {
         if (found >= smallest && found <= largest) return;
         throw Error({.field = field,
-                     .found = fmt::format("{}", found),
-                     .wanted = fmt::format("{} to {}", smallest, largest),
-                     .next_step = fmt::format("read it from VkPhysicalDeviceLimits::{}", limit)});
+                     .found = text_of(found),
+                     .wanted = joined(smallest, " to ", largest),
+                     .next_step = joined("read it from VkPhysicalDeviceLimits::", limit)});
     };
     check_range("subtexel_bits", options.subtexel_bits, 1, 24, "subTexelPrecisionBits");
     check_range("largest_face", options.largest_face, kSmallestFace, 1 << 16, "maxImageDimensionCube");
@@ -234,12 +232,12 @@ void check_reachable(const SignalError& error, const SignalTableOptions& options
     const double limit = error.limit();
     const bool is_rounding = options.budget <= limit;
     throw Error({.field = "budget",
-                 .found = fmt::format("{:.3g}", options.budget),
-                 .wanted = fmt::format(
-                     "at least {:.3g}: {}", reached,
-                     is_rounding ? fmt::format("{} texels of any number keep {:.3g}", Format<T>::kName, limit)
-                                 : fmt::format("what faces of {} texels an edge keep", options.largest_face)),
-                 .next_step = is_rounding ? fmt::format("raise the budget, or {}", Format<T>::kOther)
+                 .found = rounded(options.budget, 3),
+                 .wanted = joined(
+                     "at least ", rounded(reached, 3), ": ",
+                     is_rounding ? joined(Format<T>::kName, " texels of any number keep ", rounded(limit, 3))
+                                 : joined("what faces of ", options.largest_face, " texels an edge keep")),
+                 .next_step = is_rounding ? joined("raise the budget, or ", Format<T>::kOther)
                                           : "raise the budget or the largest face"});
 }
 

@@ -1,7 +1,6 @@
 #include "checks.hpp"
 
-#include <fmt/format.h>
-
+#include "text.hpp"
 #include "zonal/error.hpp"
 
 namespace zonal {
@@ -9,17 +8,17 @@ namespace zonal {
 void check_order(int order) {
     if (order >= 1 && order <= kMaxOrder) return;
     throw Error({.field = "order",
-                 .found = fmt::format("{}", order),
-                 .wanted = fmt::format("1 to {}", kMaxOrder),
+                 .found = text_of(order),
+                 .wanted = joined("1 to ", kMaxOrder),
                  .next_step = "choose an order (number of bands) in this range"});
 }
 
 void check_length(const char* field, int order, std::size_t length) {
     const auto wanted = static_cast<std::size_t>(order) * static_cast<std::size_t>(order);
     if (length == wanted) return;
-    throw Error({.field = fmt::format("length of {} for order {}", field, order),
-                 .found = fmt::format("{}", length),
-                 .wanted = fmt::format("{}", wanted),
+    throw Error({.field = joined("length of ", field, " for order ", order),
+                 .found = text_of(length),
+                 .wanted = text_of(wanted),
                  .next_step = "pass one value per coefficient, or the order that belongs to the data"});
 }
 

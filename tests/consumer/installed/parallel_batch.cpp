@@ -6,7 +6,7 @@
 #include "zonal/parallel.hpp"
 
 int main() {
-    const zonal::RotationMatrix<float> quarter_turn(Eigen::Matrix3f{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}});
+    const zonal::RotationMatrix<float> quarter_turn(0, -1, 0, 1, 0, 0, 0, 0, 1);
     const std::size_t count = 10000, coefficients = 9;
     std::vector<float> lobes(count * coefficients);
     for (std::size_t k = 0; k < count; ++k) lobes[k * coefficients + 3] = 1;

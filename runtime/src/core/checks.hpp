@@ -4,18 +4,20 @@
 #include <functional>
 #include <span>
 
+#include "zonal/api.hpp"
+
 namespace zonal {
 
 /// Largest order the basis is tested for.
 inline constexpr int kMaxOrder = 20;
 
 /// Throws zonal::Error unless 1 <= order <= kMaxOrder.
-void check_order(int order);
+ZONAL_API void check_order(int order);
 
 /// Throws zonal::Error unless `length` = order^2; `field` names the span in the message.
-void check_length(const char* field, int order, std::size_t length);
+ZONAL_API void check_length(const char* field, int order, std::size_t length);
 
-[[noreturn]] void throw_partial_overlap();
+[[noreturn]] ZONAL_API void throw_partial_overlap();
 
 /// Throws zonal::Error unless the spans are the same or apart.
 template <class V>

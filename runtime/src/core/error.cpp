@@ -1,14 +1,14 @@
 #include "zonal/error.hpp"
 
-#include <fmt/format.h>
+#include "text.hpp"
 
 namespace zonal {
 namespace {
 
 std::string message_of(const Problem& problem) {
     const std::string where = problem.file.empty() ? "" : problem.file + ": ";
-    return fmt::format("{}{}: found {}, wanted {}; {}", where, problem.field, problem.found, problem.wanted,
-                       problem.next_step);
+    return joined(where, problem.field, ": found ", problem.found, ", wanted ", problem.wanted, "; ",
+                  problem.next_step);
 }
 
 }  // namespace

@@ -16,15 +16,13 @@
 
 #include "zonal/conventions.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "checks.hpp"
+#include "text.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotate.hpp"
 
@@ -80,7 +78,7 @@ const Definition& definition_of(Convention convention) {
     const auto found = std::ranges::find(kDefinitions, convention, &Definition::convention);
     if (found != kDefinitions.end()) return *found;
     throw Error({.field = "convention",
-                 .found = fmt::format("the number {}", static_cast<int>(convention)),
+                 .found = joined("the number ", static_cast<int>(convention)),
                  .wanted = "one of the enumerators of zonal::Convention",
                  .next_step = "use convention_from_name to read a convention"});
 }
@@ -89,11 +87,10 @@ template <class V>
 void check_call(const Definition& definition, int order, std::span<const V> in, std::span<V> out) {
     if (order < definition.min_order || order > definition.max_order) {
         const bool is_single = definition.min_order == definition.max_order;
-        throw Error({.field = fmt::format("order of a signal in the convention {}", definition.name),
-                     .found = fmt::format("{}", order),
-                     .wanted = is_single
-                                   ? fmt::format("{}", definition.min_order)
-                                   : fmt::format("{} to {}", definition.min_order, definition.max_order),
+        throw Error({.field = joined("order of a signal in the convention ", definition.name),
+                     .found = text_of(order),
+                     .wanted = is_single ? text_of(definition.min_order)
+                                         : joined(definition.min_order, " to ", definition.max_order),
                      .next_step = "choose an order (number of bands) that the convention has"});
     }
     check_length("in", order, in.size());
@@ -228,19 +225,34 @@ void to_their_places(const Layout& layout, std::span<const V> ours, std::span<V>
         theirs[j] = static_cast<Scalar<V>>(layout[j].scale) * ours[layout[j].index];
 }
 
-/// P, of determinant +1.
-Eigen::Matrix3d axes_matrix(Axes axes) {
-    Eigen::Matrix3d p;
+/// Row i of P, of determinant +1: its value that is not zero, and the column of that.
+struct SignedAxis {
+    int column;
+    int sign;
+};
+
+std::array<SignedAxis, 3> rows_of(Axes axes) {
     switch (axes) {
         case Axes::kHalfTurnAboutZ:
-            return Eigen::Vector3d(-1, -1, 1).asDiagonal();
+            return {{{0, -1}, {1, -1}, {2, 1}}};
         case Axes::kYPolar:
-            p << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-            return p;
+            return {{{2, 1}, {0, 1}, {1, 1}}};
         case Axes::kOurs:
             break;
     }
-    return Eigen::Matrix3d::Identity();
+    return {{{0, 1}, {1, 1}, {2, 1}}};
+}
+
+/// P, or its transpose.
+template <class T>
+RotationMatrix<T> axes_matrix(Axes axes, bool is_transposed) {
+    T values[9] = {};
+    const auto rows = rows_of(axes);
+    for (int i = 0; i < 3; ++i) {
+        const auto [column, sign] = rows[i];
+        values[is_transposed ? 3 * column + i : 3 * i + column] = static_cast<T>(sign);
+    }
+    return RotationMatrix<T>::from_row_major(values);
 }
 
 template <class V>
@@ -248,7 +260,7 @@ void convert_to_zonal(Convention convention, int order, std::span<const V> in, s
     const Definition& definition = definition_of(convention);
     check_call(definition, order, in, out);
     if (definition.axes == Axes::kYPolar)  // f(w) = g(P w): g turned by P^T
-        return rotate(order, RotationMatrix<Scalar<V>>(axes_matrix(definition.axes).transpose()), in, out);
+        return rotate(order, axes_matrix<Scalar<V>>(definition.axes, true), in, out);
     Room<V> room;
     to_our_places(layout_of(convention), copied(definition, in, room), out);
 }
@@ -258,7 +270,7 @@ void convert_from_zonal(Convention convention, int order, std::span<const V> in,
     const Definition& definition = definition_of(convention);
     check_call(definition, order, in, out);
     if (definition.axes == Axes::kYPolar)
-        return rotate(order, RotationMatrix<Scalar<V>>(axes_matrix(definition.axes)), in, out);
+        return rotate(order, axes_matrix<Scalar<V>>(definition.axes, false), in, out);
     Room<V> room;
     to_their_places(layout_of(convention), copied(definition, in, room), out);
 }
@@ -289,19 +301,24 @@ Convention convention_from_name(std::string_view name) {
     const auto found = std::ranges::find(kDefinitions, name, &Definition::name);
     if (found != kDefinitions.end()) return found->convention;
     throw Error({.field = "convention",
-                 .found = fmt::format("'{}'", name),
-                 .wanted = fmt::format("one of: {}", fmt::join(convention_names(), ", ")),
+                 .found = joined("'", name, "'"),
+                 .wanted = joined("one of: ", list_of(convention_names())),
                  .next_step = "choose the library that wrote the data"});
 }
 
 template <class T>
 RotationMatrix<T> kernel_rotation(Convention convention, const RotationMatrix<T>& rotation) {
-    using Matrix = typename RotationMatrix<T>::Matrix;
     const Definition& definition = definition_of(convention);
-    const Matrix columns =
-        definition.multiplies_rows ? Matrix(rotation.matrix().transpose()) : rotation.matrix();
-    const Matrix p = axes_matrix(definition.axes).cast<T>();
-    return RotationMatrix<T>(Matrix(p * columns * p.transpose()));
+    const auto rows = rows_of(definition.axes);
+    T values[9];
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const int row = rows[i].column, column = rows[j].column;
+            const T value = definition.multiplies_rows ? rotation(column, row) : rotation(row, column);
+            values[3 * i + j] = static_cast<T>(rows[i].sign * rows[j].sign) * value;
+        }
+    }
+    return RotationMatrix<T>::from_row_major(values);
 }
 template RotationMatrix<float> kernel_rotation(Convention, const RotationMatrix<float>&);
 template RotationMatrix<double> kernel_rotation(Convention, const RotationMatrix<double>&);

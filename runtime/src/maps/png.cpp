@@ -1,6 +1,5 @@
 #include "zonal/png.hpp"
 
-#include <fmt/format.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
@@ -10,7 +9,9 @@
 #include <system_error>
 #include <vector>
 
+#include "core/text.hpp"
 #include "zonal/error.hpp"
+#include "zonal/finite.hpp"
 
 namespace zonal {
 namespace {
@@ -22,8 +23,8 @@ void check_panels(const std::filesystem::path& path, std::span<const Environment
         if (panel.height == panels.front().height) continue;
         throw Error({.file = path.string(),
                      .field = "height of a panel",
-                     .found = fmt::format("{}", panel.height),
-                     .wanted = fmt::format("{}, as the first panel has", panels.front().height),
+                     .found = text_of(panel.height),
+                     .wanted = joined(panels.front().height, ", as the first panel has"),
                      .next_step = "draw all panels in one height"});
     }
     if (panels.empty() || panels.front().height < 1) {
@@ -82,7 +83,7 @@ void write_and_rename(const std::filesystem::path& path, const std::string& byte
 }  // namespace
 
 std::uint8_t srgb_byte(float linear) {
-    if (!(linear > 0)) return 0;
+    if (detail::is_nan(linear) || linear <= 0) return 0;
     const float clamped = std::min(linear, 1.0F);
     const float encoded =
         clamped <= 0.0031308F ? 12.92F * clamped : 1.055F * std::pow(clamped, 1 / 2.4F) - 0.055F;

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "checks.hpp"
+#include "core/checks.hpp"
 
 namespace zonal {
 namespace {
@@ -36,7 +36,7 @@ struct Recurrence {
 };
 
 template <class V>
-V weighted_sum(int order, std::span<const V> coefficients, const Eigen::Vector3d& direction) {
+V weighted_sum(int order, std::span<const V> coefficients, const Direction& direction) {
     check_order(order);
     check_length("coefficients", order, coefficients.size());
     std::array<double, kMaxOrder * kMaxOrder> storage;
@@ -49,14 +49,14 @@ V weighted_sum(int order, std::span<const V> coefficients, const Eigen::Vector3d
 
 }  // namespace
 
-void evaluate_basis(int order, const Eigen::Vector3d& direction, std::span<double> values) {
+void evaluate_basis(int order, const Direction& direction, std::span<double> values) {
     static const Recurrence recurrence;
     check_order(order);
     check_length("values", order, values.size());
 
-    const double x = direction.x();
-    const double y = direction.y();
-    const double z = direction.z();
+    const double x = direction.x;
+    const double y = direction.y;
+    const double z = direction.z;
     double c = 1.0;  // c_m and s_m of the comment above
     double s = 0.0;
     for (int m = 0; m < order; ++m) {
@@ -78,11 +78,11 @@ void evaluate_basis(int order, const Eigen::Vector3d& direction, std::span<doubl
     }
 }
 
-double evaluate(int order, std::span<const double> coefficients, const Eigen::Vector3d& direction) {
+double evaluate(int order, std::span<const double> coefficients, const Direction& direction) {
     return weighted_sum(order, coefficients, direction);
 }
 
-Rgb<double> evaluate(int order, std::span<const Rgb<double>> coefficients, const Eigen::Vector3d& direction) {
+Rgb<double> evaluate(int order, std::span<const Rgb<double>> coefficients, const Direction& direction) {
     return weighted_sum(order, coefficients, direction);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 #include <zonal/basis.hpp>
+#include <zonal/eigen.hpp>
 
 namespace {
 

@@ -10,13 +10,13 @@
 
 #include "zonal/closed_forms.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "checks.hpp"
+#include "core/checks.hpp"
+#include "core/text.hpp"
 #include "zonal/basis.hpp"
 #include "zonal/error.hpp"
 
@@ -52,16 +52,18 @@ void check_band_1(int order, std::size_t length) {
     check_length("signal", order, length);
     if (order >= 2) return;
     throw Error({.field = "order",
-                 .found = fmt::format("{}", order),
-                 .wanted = fmt::format("2 to {}", kMaxOrder),
+                 .found = text_of(order),
+                 .wanted = joined("2 to ", kMaxOrder),
                  .next_step = "a direction needs band 1"});
 }
 
 LinearLobe lobe_of_band_1(double y, double z, double x) {
-    const Eigen::Vector3d vector(x, y, z);
-    const double length = vector.stableNorm();
-    if (length == 0) return {Eigen::Vector3d::UnitZ(), 0};
-    return {(vector / length).normalized(), length};
+    const double scale =
+        std::max({std::abs(x), std::abs(y), std::abs(z)});  // no square may under- or overflow
+    if (scale == 0) return {Direction(0, 0, 1), 0};
+    const double u = x / scale, v = y / scale, w = z / scale;
+    const double norm = std::sqrt(u * u + v * v + w * w);
+    return {Direction(u / norm, v / norm, w / norm), scale * norm};
 }
 
 double luminance(const Rgb<double>& colour) {
@@ -72,14 +74,13 @@ double light_scale(int order) { return 4 * pi / (order * order); }
 
 }  // namespace
 
-void turn_zonal(int order, std::span<const double> zonal, const Eigen::Vector3d& direction,
-                std::span<double> out) {
+void turn_zonal(int order, std::span<const double> zonal, const Direction& direction, std::span<double> out) {
     check_order(order);
     check_length("out", order, out.size());
     if (zonal.size() != static_cast<std::size_t>(order)) {
-        throw Error({.field = fmt::format("length of zonal for order {}", order),
-                     .found = fmt::format("{}", zonal.size()),
-                     .wanted = fmt::format("{}", order),
+        throw Error({.field = joined("length of zonal for order ", order),
+                     .found = text_of(zonal.size()),
+                     .wanted = text_of(order),
                      .next_step = "pass one zonal coefficient a band"});
     }
     Bands factors;
@@ -91,7 +92,7 @@ void turn_zonal(int order, std::span<const double> zonal, const Eigen::Vector3d&
 double clamped_cosine_factor(int l) {
     if (l < 0) {
         throw Error({.field = "band",
-                     .found = fmt::format("{}", l),
+                     .found = text_of(l),
                      .wanted = "at least 0",
                      .next_step = "choose a band of the signal"});
     }
@@ -102,7 +103,7 @@ double clamped_cosine_factor(int l) {
     return factor;
 }
 
-void clamped_cosine(int order, const Eigen::Vector3d& direction, std::span<double> out) {
+void clamped_cosine(int order, const Direction& direction, std::span<double> out) {
     evaluate_basis(order, direction, out);
     irradiance(order, out, out);
 }
@@ -121,13 +122,13 @@ LinearLobe linear_lobe(int order, std::span<const double> signal) {
 }
 
 DirectionalLight<double> dominant_light(int order, std::span<const double> signal) {
-    const Eigen::Vector3d direction = linear_lobe(order, signal).direction;
+    const Direction direction = linear_lobe(order, signal).direction;
     return {direction, light_scale(order) * evaluate(order, signal, direction)};
 }
 
 DirectionalLight<Rgb<double>> dominant_light(int order, std::span<const Rgb<double>> signal) {
     check_band_1(order, signal.size());
-    const Eigen::Vector3d direction =
+    const Direction direction =
         lobe_of_band_1(luminance(signal[1]), luminance(signal[2]), luminance(signal[3])).direction;
     return {direction, light_scale(order) * evaluate(order, signal, direction)};
 }

@@ -8,13 +8,13 @@
 
 #include "zonal/projection.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "checks.hpp"
+#include "core/checks.hpp"
+#include "core/text.hpp"
 #include "zonal/basis.hpp"
 #include "zonal/error.hpp"
 
@@ -92,16 +92,22 @@ void check_map(int order, const EnvironmentMap& map) {
     const auto texels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
     if (map.height < 1 || map.width != 2 * map.height || map.texels.size() != texels) {
         throw Error({.field = "map",
-                     .found = fmt::format("{} x {} with {} texels", map.width, map.height, map.texels.size()),
+                     .found = joined(map.width, " x ", map.height, " with ", map.texels.size(), " texels"),
                      .wanted = "width = 2 height and one texel for each place",
                      .next_step = "make the map with black_map or read_environment_map"});
     }
     if (map.height < order) {
-        throw Error({.field = fmt::format("height of the map for order {}", order),
-                     .found = fmt::format("{}", map.height),
-                     .wanted = fmt::format("at least {} rows", order),
+        throw Error({.field = joined("height of the map for order ", order),
+                     .found = text_of(map.height),
+                     .wanted = joined("at least ", order, " rows"),
                      .next_step = "use a finer map or a lower order"});
     }
+}
+
+/// R^T d.
+Direction turned_back(const RotationMatrix<double>& r, const Direction& d) {
+    const auto column = [&](int k) { return r(0, k) * d.x + r(1, k) * d.y + r(2, k) * d.z; };
+    return {column(0), column(1), column(2)};
 }
 
 }  // namespace
@@ -132,8 +138,7 @@ std::vector<Rgb<double>> project(int order, const EnvironmentMap& map) {
     return coefficients;
 }
 
-std::vector<Rgb<double>> project(int order,
-                                 const std::function<Rgb<double>(const Eigen::Vector3d&)>& function) {
+std::vector<Rgb<double>> project(int order, const std::function<Rgb<double>(const Direction&)>& function) {
     check_order(order);
     // Function times basis has degree at most 2 order - 2: 2 order equal steps of phi are exact, and 2 order
     // rows keep (degree x height) of the theta integrand below pi.
@@ -145,8 +150,8 @@ std::vector<Rgb<double>> project(int order,
         for (const PolarNode& node : polar_nodes(row, rows)) {
             for (int column = 0; column < columns; ++column) {
                 const double phi_rad = 2 * pi * (column + 0.5) / columns;
-                const Eigen::Vector3d direction(node.sin_theta * std::cos(phi_rad),
-                                                node.sin_theta * std::sin(phi_rad), node.cos_theta);
+                const Direction direction(node.sin_theta * std::cos(phi_rad),
+                                          node.sin_theta * std::sin(phi_rad), node.cos_theta);
                 evaluate_basis(order, direction, basis);
                 const Rgb<double> value = (node.weight * 2 * pi / columns) * function(direction);
                 for (std::size_t i = 0; i < basis.size(); ++i) {
@@ -168,15 +173,15 @@ EnvironmentMap reconstruct_rotated(int order, std::span<const Rgb<double>> coeff
     check_length("coefficients", order, coefficients.size());
     if (height < 1) {
         throw Error({.field = "height of the map",
-                     .found = fmt::format("{}", height),
+                     .found = text_of(height),
                      .wanted = "at least 1",
                      .next_step = "ask for a map with rows"});
     }
     EnvironmentMap map = black_map(height);
     for (int row = 0; row < map.height; ++row) {
         for (int column = 0; column < map.width; ++column) {
-            const Eigen::Vector3d direction = texel_direction(map.width, map.height, column, row);
-            const Eigen::Vector3d source = rotation.matrix().transpose() * direction;
+            const Direction direction = texel_direction(map.width, map.height, column, row);
+            const Direction source = turned_back(rotation, direction);
             map.at(column, row) = evaluate(order, coefficients, source).cast<float>();
         }
     }
