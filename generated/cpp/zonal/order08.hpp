@@ -99,7 +99,10 @@
 
 namespace zonal::order8 {
 
-// What kernels use beside + - * /. T and V may have functions of their own, found by argument-dependent lookup.
+// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and unary -, and where
+// a kernel says so / and the functions sqrt and copysign; V, of signal values, + - and unary -, and T * V. Where
+// fma(a, b, c) is a b + c by one rounding, they may have that too. Functions of their own are found by
+// argument-dependent lookup; what follows serves float, double and the rest.
 namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
@@ -204,6 +207,7 @@ inline constexpr double kRotateZhfExcess = 3.50;
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// Error: at most (kRotateChannelsBound... + kRotateChannelsExcess |R R^T - I|_F) |f|.
+/// T needs /, sqrt and copysign too.
 /// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
@@ -972,6 +976,7 @@ ZONAL_HOST_DEVICE static void rotate_channels(const T* R, const V* f, V* out) {
 /// odd bands.
 /// Where V is not T, a value of several channels, this is rotate_channels.
 /// Error: at most (kRotateBound... + kRotateExcess |R R^T - I|_F) |f|.
+/// T needs /, sqrt and copysign too.
 /// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
@@ -1723,6 +1728,7 @@ ZONAL_HOST_DEVICE static void rotate(const T* R, const V* f, V* out) {
 /// scalars must not overlap R.
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
+/// T needs /, sqrt and copysign too.
 /// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
 /// Cost: see the banner.
 /// Source: low bands as tensors, contracted with the rows of R.
