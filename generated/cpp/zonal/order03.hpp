@@ -43,7 +43,7 @@
 //             per extra vector 18 mul 0 add 38 fma 0 other
 // bound   : rotate relative error 4.7e-07 (float), 8.6e-16 (double),
 //             for det R = +1 or -1; excess 2.23
-//           apply relative error 2.4e-07 (float), 4.4e-16 (double),
+//           apply relative error 3.1e-07 (float), 5.7e-16 (double),
 //             for det R = +1 or -1; excess 1.08
 //           rotate_accurate relative error 3.4e-07 (float), 6.3e-16 (double),
 //             for det R = +1 or -1; excess 1.08
@@ -158,8 +158,8 @@ inline constexpr double kRotateExcess = 2.23;
 
 /// Largest relative error of apply for det R = +1 or -1 where R is orthonormal,
 /// and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 2.4e-07;
-inline constexpr double kApplyBoundDouble = 4.4e-16;
+inline constexpr double kApplyBoundFloat = 3.1e-07;
+inline constexpr double kApplyBoundDouble = 5.7e-16;
 inline constexpr double kApplyExcess = 1.08;
 
 /// Largest relative error of rotate_accurate for det R = +1 or -1 where R is orthonormal,
