@@ -120,7 +120,7 @@ struct Judge {
         const auto q = zonal::oracle::nearest_orthonormal(matrix);
         const zonal::oracle::Matrix3 to_light = {q[0], q[3], q[6], q[1], q[4], q[7], q[2], q[5], q[8]};
         const auto one = zonal::banner::bound(order, "rotate");
-        const auto three = zonal::banner::bound(order, "rotate_channels");
+        const auto three = order > 3 ? zonal::banner::bound(order, "rotate_channels") : one;
         const double relative = std::max(one.float_bound, three.float_bound) +
                                 std::max(one.excess, three.excess) * zonal::orthonormality_error(rotation);
 
