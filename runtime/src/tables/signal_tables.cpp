@@ -347,11 +347,12 @@ Eigen::Vector3d face_texel_direction(int size, int face, int row, int column) {
     return directions[face].normalized();
 }
 
-#define ZONAL_INSTANTIATE(T)                                                          \
-    template SignalTablePlan plan_signal_tables<T>(int, std::span<const Rgb<float>>,  \
-                                                   const SignalTableOptions&);        \
-    template SignalTables<T> build_signal_tables<T>(int, std::span<const Rgb<float>>, \
-                                                    const SignalTableOptions&);
+// Marked again: Eigen::half is not a type of ours, and would hide what is made of it.
+#define ZONAL_INSTANTIATE(T)                                                                    \
+    template ZONAL_API SignalTablePlan plan_signal_tables<T>(int, std::span<const Rgb<float>>,  \
+                                                             const SignalTableOptions&);        \
+    template ZONAL_API SignalTables<T> build_signal_tables<T>(int, std::span<const Rgb<float>>, \
+                                                              const SignalTableOptions&);
 ZONAL_INSTANTIATE(float)
 ZONAL_INSTANTIATE(Eigen::half)
 #undef ZONAL_INSTANTIATE
