@@ -62,8 +62,8 @@
 //           Nowrouzezahrai, Simari, Fiume 2012, eq. 9
 //           Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 //
-// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index l(l+1)+m; a vec3
-// holds three channels.
+// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index
+// l(l+1)+m; a vec3 holds three channels.
 
 // The cheapest exact rotation of one vector.
 // Turns the function, not the frame: f'(w) = f(R^T w).

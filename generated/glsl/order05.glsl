@@ -69,8 +69,8 @@
 //           Nowrouzezahrai, Simari, Fiume 2012, eq. 9
 //           Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 //
-// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index l(l+1)+m; a vec3
-// holds three channels.
+// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index
+// l(l+1)+m; a vec3 holds three channels.
 
 // The cheapest exact rotation of three vectors at once.
 // Turns the function, not the frame: f'(w) = f(R^T w).
@@ -106,7 +106,7 @@ void zonal_order5_rotate_channels(highp float R[9], highp float f[25], out highp
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
-    highp float euler_1 = uintBitsToFloat((floatBitsToUint(1e-15) & 0x7fffffffu) | (floatBitsToUint(r02) & 0x80000000u));
+    highp float euler_1 = uintBitsToFloat(floatBitsToUint(1e-15) | (floatBitsToUint(r02) & 0x80000000u));
     highp float x = r02 + euler_1;
     highp float euler_2 = r12 * r12;
     highp float euler_3 = x * x + euler_2;
@@ -355,7 +355,7 @@ void zonal_order5_rotate_channels(highp float R[9], highp vec3 f[25], out highp 
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
-    highp float euler_1 = uintBitsToFloat((floatBitsToUint(1e-15) & 0x7fffffffu) | (floatBitsToUint(r02) & 0x80000000u));
+    highp float euler_1 = uintBitsToFloat(floatBitsToUint(1e-15) | (floatBitsToUint(r02) & 0x80000000u));
     highp float x = r02 + euler_1;
     highp float euler_2 = r12 * r12;
     highp float euler_3 = x * x + euler_2;
@@ -617,7 +617,7 @@ void zonal_order5_rotate(highp float R[9], highp float f[25], out highp float o[
     o[1] = b1_3;
     o[2] = b1_6;
     o[3] = b1_9;
-    highp float euler_1 = uintBitsToFloat((floatBitsToUint(1e-15) & 0x7fffffffu) | (floatBitsToUint(r02) & 0x80000000u));
+    highp float euler_1 = uintBitsToFloat(floatBitsToUint(1e-15) | (floatBitsToUint(r02) & 0x80000000u));
     highp float x = r02 + euler_1;
     highp float euler_2 = r12 * r12;
     highp float euler_3 = x * x + euler_2;
@@ -856,7 +856,7 @@ void zonal_order5_prepare(highp float R[9], out highp float scalars[53]) {
     highp float r20 = R[6];
     highp float r21 = R[7];
     highp float r22 = R[8];
-    highp float euler_1 = uintBitsToFloat((floatBitsToUint(1e-15) & 0x7fffffffu) | (floatBitsToUint(r02) & 0x80000000u));
+    highp float euler_1 = uintBitsToFloat(floatBitsToUint(1e-15) | (floatBitsToUint(r02) & 0x80000000u));
     highp float x = r02 + euler_1;
     highp float euler_2 = r12 * r12;
     highp float euler_3 = x * x + euler_2;

@@ -59,10 +59,10 @@ const char* const kMacros = R"(
 )";
 
 const char* const kPrelude = R"(
-// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and unary -, and where
-// a kernel says so / and the functions sqrt and copysign; V, of signal values, + - and unary -, and T * V. Where
-// fma(a, b, c) is a b + c by one rounding, they may have that too. Functions of their own are found by
-// argument-dependent lookup; what follows serves float, double and the rest.
+// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and
+// unary -, and where a kernel says so / and the functions sqrt and copysign; V, of signal values,
+// + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding. Functions of
+// their own are found by argument-dependent lookup; what follows serves float, double and the rest.
 namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
@@ -113,7 +113,8 @@ const char* type_of(Kind kind) { return kind == Kind::signal ? "V" : "T"; }
 
 std::string template_line(const Kernel& kernel) {
     if (!kernel.uses(Kind::signal)) return "template <class T>\n";
-    if (!kernel.uses(Kind::rotation)) return "template <class V, class T = typename detail::scalar_of<V>::type>\n";
+    if (!kernel.uses(Kind::rotation))
+        return "template <class V, class T = typename detail::scalar_of<V>::type>\n";
     return "template <class T, class V = T>\n";
 }
 
@@ -145,8 +146,8 @@ std::string pascal_case(const std::string& name) {
     return result;
 }
 
-/// Whether an angle is chosen where the rotation leaves it free: the result is right all the same, its derivative is
-/// not.
+/// Whether an angle is chosen where the rotation leaves it free: the result is right all the same, its
+/// derivative is not.
 bool has_pole(const Kernel& kernel) {
     for (Id id = 0; id < kernel.graph.size(); ++id)
         if (kernel.graph[id].op == Op::copy_sign) return true;
@@ -170,9 +171,10 @@ std::string kernel_comment(const Kernel& kernel) {
                                     last.kind == Kind::signal ? last.name : "signal"));
     if (has_pole(kernel)) lines.push_back("T needs /, sqrt and copysign too.");
     if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
-        lines.push_back(has_pole(kernel)
-                            ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
-                            : "May be differentiated: T and V may be numbers that carry derivatives.");
+        lines.push_back(
+            has_pole(kernel)
+                ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
+                : "May be differentiated: T and V may be numbers that carry derivatives.");
     append(lines, source_lines(kernel));
     std::string text;
     for (const std::string& line : lines) text += "/// " + line + "\n";
@@ -233,9 +235,10 @@ bool needs_helpers(const Kernel& kernel) {
 std::string print_kernel(const Kernel& kernel) {
     const Body body = body_of(kernel);
     // Static: a copy for each file, compiled as that file is.
-    const std::string head = fmt::format("{}\n{}{}ZONAL_HOST_DEVICE static void {}({}) {{\n{}", body.tables,
-                                         kernel_comment(kernel), template_line(kernel), kernel.name,
-                                         parameters(kernel), needs_helpers(kernel) ? "    using namespace detail;\n" : "");
+    const std::string head =
+        fmt::format("{}\n{}{}ZONAL_HOST_DEVICE static void {}({}) {{\n{}", body.tables,
+                    kernel_comment(kernel), template_line(kernel), kernel.name, parameters(kernel),
+                    needs_helpers(kernel) ? "    using namespace detail;\n" : "");
     if (kernel.for_channels.empty()) return head + body.print(4) + "}\n";
     std::string arguments;
     for (const graph::Array& array : kernel.inputs) arguments += array.name + ", ";

@@ -98,7 +98,8 @@ std::string expression(const Loop& loop) {
         case Op::square_root:
             return fmt::format("sqrt({})", operand(0));
         case Op::copy_sign:
-            return fmt::format("copysign(is_single<T>::value ? {} : {}, {})", operand(1), operand(0), operand(2));
+            return fmt::format("copysign(is_single<T>::value ? {} : {}, {})", operand(1), operand(0),
+                               operand(2));
     }
     throw std::logic_error("an operation without an expression");
 }
@@ -234,8 +235,9 @@ std::string TablePrinter::tables() const {
     for (const graph::Number& constant : program_.constants) items.push_back(literal(constant));
     text += fmt::format("\ninline constexpr double k{}Exact[] = {{\n{}}};\n", name_, filled_lines(items));
     return text +
-           fmt::format("template <class C>\ninline constexpr detail::Constants<C, {}> k{}Constants(k{}Exact);\n",
-                       items.size(), name_, name_);
+           fmt::format(
+               "template <class C>\ninline constexpr detail::Constants<C, {}> k{}Constants(k{}Exact);\n",
+               items.size(), name_, name_);
 }
 
 std::string TablePrinter::body(int indentation) const {

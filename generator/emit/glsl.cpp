@@ -27,12 +27,11 @@ class GlslSyntax : public Syntax {
     std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
         return product_and_sum(a, b, c);
     }
-    /// By bits: a comparison with 0 would take -0 for +0.
+    /// By bits: a comparison with 0 would take -0 for +0. Sizes are not negative.
     std::string copy_sign(const graph::Number&, const graph::Number& size_in_float,
                           const std::string& sign) const override {
-        return fmt::format(
-            "uintBitsToFloat((floatBitsToUint({}) & 0x7fffffffu) | (floatBitsToUint({}) & 0x80000000u))",
-            float_literal(size_in_float), sign);
+        return fmt::format("uintBitsToFloat(floatBitsToUint({}) | (floatBitsToUint({}) & 0x80000000u))",
+                           float_literal(size_in_float), sign);
     }
 
   private:
@@ -84,8 +83,8 @@ std::string print_glsl_kernel(const Unit& unit, const Kernel& original) {
 std::string print_glsl(const Unit& unit) {
     std::string text = comment("//", banner_lines(unit));
     text +=
-        "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index "
-        "l(l+1)+m; a vec3\n// holds three channels.\n";
+        "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index\n"
+        "// l(l+1)+m; a vec3 holds three channels.\n";
     for (const Kernel& kernel : unit.kernels) text += print_glsl_kernel(unit, kernel);
     return text;
 }

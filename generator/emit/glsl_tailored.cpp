@@ -107,7 +107,8 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
         "// o : {coefficients} values, index l(l+1)+m.\n"
         "// Error: that stated beside the tables. Cost: see the banner. Source: eq. 11.\n"
         "void zonal_{name}_rotate_tailored(highp float R[9], highp vec3 low[{low}],\n"
-        "        highp samplerCubeArray bands, highp float levels[{layers}], out highp vec3 o[{coefficients}]) {{\n"
+        "        highp samplerCubeArray bands, highp float levels[{layers}], out highp vec3 "
+        "o[{coefficients}]) {{\n"
         "    highp float inverse[9] = float[9](R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]);\n"
         "    highp float w[{directions}];\n"
         "    zonal_{name}_lobes(inverse, w);\n",
@@ -117,7 +118,8 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
         text += fmt::format("    highp vec3 w{} = zonal_{}_face_direction(vec3(w[{}], w[{}], w[{}]));\n", d,
                             unit.name, 3 * d, 3 * d + 1, 3 * d + 2);
     text += fmt::format("    highp vec3 samples[{}];\n{}", coefficients, print_bands(unit, rotation));
-    text += fmt::format("    highp vec3 turned[{}];\n    zonal_{}_rotate_low(R, low, turned);\n", low, unit.name);
+    text +=
+        fmt::format("    highp vec3 turned[{}];\n    zonal_{}_rotate_low(R, low, turned);\n", low, unit.name);
     for (int i = 0; i < low; ++i) text += fmt::format("    o[{0}] = turned[{0}];\n", i);
     return text + "}\n";
 }

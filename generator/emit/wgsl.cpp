@@ -22,12 +22,11 @@ class WgslSyntax : public Syntax {
     std::string fused(const std::string& a, const std::string& b, const std::string& c) const override {
         return product_and_sum(a, b, c);
     }
-    /// By bits: a comparison with 0 would take -0 for +0.
+    /// By bits: a comparison with 0 would take -0 for +0. Sizes are not negative.
     std::string copy_sign(const graph::Number&, const graph::Number& size_in_float,
                           const std::string& sign) const override {
-        return fmt::format(
-            "bitcast<f32>((bitcast<u32>({}) & 0x7fffffffu) | (bitcast<u32>({}) & 0x80000000u))",
-            float_literal(size_in_float), sign);
+        return fmt::format("bitcast<f32>(bitcast<u32>({}) | (bitcast<u32>({}) & 0x80000000u))",
+                           float_literal(size_in_float), sign);
     }
 };
 

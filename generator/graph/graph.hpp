@@ -20,8 +20,8 @@ using Number = exact::Real;
 enum class Kind { constant, rotation, signal };
 
 /// `fused` is (±a) * b ± c, rounded once where the target can.
-/// `copy_sign` is a constant with the last operand's sign: the first operand, in single precision the second one.
-/// Division, root and copied sign make rotation scalars only.
+/// `copy_sign` is a constant with the last operand's sign: the first operand, in single precision the second
+/// one. Division, root and copied sign make rotation scalars only.
 enum class Op { constant, input, negate, add, subtract, multiply, fused, divide, square_root, copy_sign };
 
 /// Names a node of one graph; smaller ids were made earlier, so ids are a topological order.
@@ -128,7 +128,8 @@ inline Value operator*(Value a, Value b) { return {a.graph, a.graph->multiply(a.
 inline Value operator/(Value a, Value b) { return {a.graph, a.graph->divide(a.id, b.id)}; }
 inline Value operator-(Value a) { return {a.graph, a.graph->negate(a.id)}; }
 inline Value sqrt(Value a) { return {a.graph, a.graph->square_root(a.id)}; }
-/// What is small beside rounding and large beside the smallest numbers depends on the precision: hence two sizes.
+/// What is small beside rounding and large beside the smallest numbers depends on the precision: hence two
+/// sizes.
 inline Value copysign(const Number& size, const Number& size_in_float, Value sign) {
     return {sign.graph, sign.graph->copy_sign(size, size_in_float, sign.id)};
 }

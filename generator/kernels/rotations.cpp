@@ -82,8 +82,8 @@ bool is_same_work(const Kernel& a, const Kernel& b) {
 
 OrderPlans plan_order(int order) {
     constexpr int kMany = 64;
-    // Up to order 3 mirrors cost one channel nothing and three a few instructions: every form takes them, so that
-    // what holds for one V holds for all.
+    // Up to order 3 mirrors cost one channel nothing and three a few instructions: every form takes them, so
+    // that what holds for one V holds for all.
     const bool takes_mirrors = order <= 3;
     Planner planner(order);
     return {planner.cheapest({1, takes_mirrors}), planner.cheapest({3, takes_mirrors}),

@@ -379,9 +379,10 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
         graph.set_name(value.id, name);
         return value;
     };
-    // (cos α, sin α) = (R02, R12) normalised. (0, 0) gives (1, 0); the sum cannot cancel. A square of R12 that
-    // is flushed to zero must be nothing beside that of the shift: in float it is up to 1.2e-38, 1.2e-8 of it.
-    // The direction of (R02, R12) is wrong by the shift at most, which must be nothing beside rounding.
+    // (cos α, sin α) = (R02, R12) normalised. (0, 0) gives (1, 0); the sum cannot cancel. A square of R12
+    // that is flushed to zero must be nothing beside that of the shift: in float it is up to 1.2e-38, 1.2e-8
+    // of it. The direction of (R02, R12) is wrong by the shift at most, which must be nothing beside
+    // rounding.
     const Value x = named(rows[0][2] + copysign(Number("1e-18"), Number("1e-15"), rows[0][2]), "x");
     const Value y = rows[1][2];
     const Value x_x = x * x;

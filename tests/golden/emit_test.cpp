@@ -153,8 +153,12 @@ TEST(Emit, every_shader_of_order_3_is_as_committed) {
 
 TEST(Emit, glsl_has_nothing_that_a_dialect_lacks) {
     const std::string text = read(fs::path(ZONAL_SOURCE_DIR) / "generated/glsl/order04.glsl");
-    EXPECT_THAT(text, AllOf(HasSubstr("void zonal_order4_rotate(highp float R[9], highp float f[16], out highp float o[16]) {"),
-                            HasSubstr("void zonal_order4_rotate(highp float R[9], highp vec3 f[16], out highp vec3 o[16]) {")));
+    EXPECT_THAT(
+        text,
+        AllOf(HasSubstr(
+                  "void zonal_order4_rotate(highp float R[9], highp float f[16], out highp float o[16]) {"),
+              HasSubstr(
+                  "void zonal_order4_rotate(highp float R[9], highp vec3 f[16], out highp vec3 o[16]) {")));
     EXPECT_THAT(text, AllOf(Not(HasSubstr("#version")), Not(HasSubstr("fma(")), Not(HasSubstr("precise "))));
 }
 

@@ -1,5 +1,5 @@
-// Turns a signal by kernels of generated headers and by what the runtime's headers hold inline, under the name
-// ZONAL_NAME: compiled several times with different flags by link_pairs.sh.
+// Turns a signal by kernels of generated headers and by what the runtime's headers hold inline, under the
+// name ZONAL_NAME: compiled several times with different flags by link_pairs.sh.
 #include "zonal/order04.hpp"
 #include "zonal/order05.hpp"
 #include "zonal/rgb.hpp"

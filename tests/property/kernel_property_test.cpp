@@ -1,6 +1,7 @@
 // What every order's `rotate`, and the kernels that do the same, must do by their mathematics, whatever the
 // rounding: each test runs for all orders.
 #include <gtest/gtest.h>
+
 #include <numbers>
 
 #include "property/kernel_checks.hpp"

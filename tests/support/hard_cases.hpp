@@ -34,8 +34,8 @@ Matrix with_noise(Matrix rotation, double noise, std::mt19937_64& random);
 template <class T>
 std::vector<Case> hard_rotations(std::mt19937_64& random);
 
-/// Tilts of 1e-25 … 1e-9 rad from both poles, two a decade, about the x axis and about random ones: squares of
-/// their entries are no normal floats, and no normal doubles where they are flushed.
+/// Tilts of 1e-25 … 1e-9 rad from both poles, two a decade, about the x axis and about random ones: squares
+/// of their entries are no normal floats, and no normal doubles where they are flushed.
 std::vector<Case> tiny_tilts(std::mt19937_64& random);
 
 /// N² standard normal coefficients.

@@ -97,10 +97,10 @@
 
 namespace zonal::order7 {
 
-// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and unary -, and where
-// a kernel says so / and the functions sqrt and copysign; V, of signal values, + - and unary -, and T * V. Where
-// fma(a, b, c) is a b + c by one rounding, they may have that too. Functions of their own are found by
-// argument-dependent lookup; what follows serves float, double and the rest.
+// What T and V must have: copies; T, of rotation scalars, construction from a constant, + - * and
+// unary -, and where a kernel says so / and the functions sqrt and copysign; V, of signal values,
+// + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding. Functions of
+// their own are found by argument-dependent lookup; what follows serves float, double and the rest.
 namespace detail {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.

@@ -1,7 +1,7 @@
 #pragma once
 
-// Everything here is always inlined: a function that files compiled for different targets share could be any file's.
-// The same words stand in front of generated kernels.
+// Everything here is always inlined: a function that files compiled for different targets share could be any
+// file's. The same words stand in front of generated kernels.
 #ifndef ZONAL_HOST_DEVICE
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define ZONAL_HOST_DEVICE __host__ __device__
@@ -56,8 +56,12 @@ struct Rgb {
     friend ZONAL_INLINE bool operator==(const Rgb& p, const Rgb& q) {
         return p.r == q.r && p.g == q.g && p.b == q.b;
     }
-    friend ZONAL_INLINE Rgb operator+(const Rgb& p, const Rgb& q) { return {p.r + q.r, p.g + q.g, p.b + q.b}; }
-    friend ZONAL_INLINE Rgb operator-(const Rgb& p, const Rgb& q) { return {p.r - q.r, p.g - q.g, p.b - q.b}; }
+    friend ZONAL_INLINE Rgb operator+(const Rgb& p, const Rgb& q) {
+        return {p.r + q.r, p.g + q.g, p.b + q.b};
+    }
+    friend ZONAL_INLINE Rgb operator-(const Rgb& p, const Rgb& q) {
+        return {p.r - q.r, p.g - q.g, p.b - q.b};
+    }
     friend ZONAL_INLINE Rgb operator-(const Rgb& p) { return {-p.r, -p.g, -p.b}; }
     friend ZONAL_INLINE Rgb operator*(T s, const Rgb& p) { return {s * p.r, s * p.g, s * p.b}; }
     /// s p + q; found by argument-dependent lookup.
