@@ -220,11 +220,16 @@ search::SearchResult find_lobes(const SearchOptions& options, const search::Prob
 void run(const SearchOptions& options) {
     check_use(options);
     check_is_writable("--out", options.out);
-    if (!options.archive.empty()) check_is_writable("--archive", options.archive);
+    if (!options.archive.empty()) {
+        check_is_writable("--archive", options.archive);
+        if (is_same_file(options.archive, options.out))
+            throw UserError(
+                fmt::format("--archive {}: found the file of --out {}, wanted another; name two files",
+                            options.archive, options.out));
+    }
     const search::Problem problem = options.problem();
     const std::optional<LobeTable> start = read_start(options);
-    std::vector<FoundSet> front;
-    if (!options.archive.empty()) front = read_front(options.archive, options.use(), problem);
+    if (!options.archive.empty()) read_front(options.archive, options.use(), problem);  // complains early
     const search::SearchSettings settings = settings_of(options, problem, start);
 
     const bool is_watched = isatty(STDERR_FILENO) != 0;
@@ -265,6 +270,8 @@ void run(const SearchOptions& options) {
     write_lobe_table(options.out, best);
     if (!options.archive.empty()) {
         const std::string command = canonical_command(options, start, result.progress.generation);
+        const OutputLock lock(options.archive);  // another search may have added to it meanwhile
+        std::vector<FoundSet> front = read_front(options.archive, options.use(), problem);
         for (const search::Solution& solution : result.front)
             search::add_to_front(front, FoundSet{solution, command});
         write_front(options.archive, options.use(), front);

@@ -1,6 +1,8 @@
 #include "io/output_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -131,5 +133,31 @@ void write_file_atomically(const fs::path& path, const std::string& content) {
 void check_is_writable(const std::string& option, const fs::path& path) {
     or_complain(option + ' ' + path.string(), [&] { check_target(behind_links(path)); });
 }
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    bool is_same = false;
+    or_complain(a.string(), [&] {
+        is_same = fs::weakly_canonical(fs::absolute(behind_links(a))) ==
+                  fs::weakly_canonical(fs::absolute(behind_links(b)));
+    });
+    return is_same;
+}
+
+OutputLock::OutputLock(const fs::path& path) {
+    or_complain(path.string(), [&] {
+        const fs::path folder = folder_of(behind_links(path));
+        fs::create_directories(folder);
+        folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder_ < 0) fail(errno);
+        while (flock(folder_, LOCK_EX) != 0) {
+            if (errno == EINTR) continue;
+            const int error = errno;
+            close(folder_);
+            fail(error);
+        }
+    });
+}
+
+OutputLock::~OutputLock() { close(folder_); }
 
 }  // namespace zonal

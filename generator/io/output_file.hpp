@@ -15,4 +15,20 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
 /// written. Leaves nothing behind and touches no file.
 void check_is_writable(const std::string& option, const std::filesystem::path& path);
 
+/// Whether both names, through links, are of one file, which need not be there yet.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Keeps other processes that hold such a lock out while a file is read and written again: `flock` of its
+/// folder, which is made as needed, so that no file of locks is left behind. Throws `UserError`.
+class OutputLock {
+  public:
+    explicit OutputLock(const std::filesystem::path& path);
+    ~OutputLock();
+    OutputLock(const OutputLock&) = delete;
+    OutputLock& operator=(const OutputLock&) = delete;
+
+  private:
+    int folder_ = -1;
+};
+
 }  // namespace zonal

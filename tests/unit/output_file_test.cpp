@@ -113,5 +113,26 @@ TEST_F(OutputFile, check_leaves_nothing) {
     EXPECT_EQ(files(), 0);
 }
 
+TEST_F(OutputFile, same_file_is_known_through_links_before_it_exists) {
+    fs::create_symlink("later.json", path("link.json"));
+    EXPECT_TRUE(is_same_file(path("link.json"), path("later.json")));
+    EXPECT_TRUE(is_same_file(path("a/../later.json"), path("later.json")));
+    EXPECT_FALSE(is_same_file(path("other.json"), path("later.json")));
+}
+
+TEST_F(OutputFile, lock_loses_no_update) {
+    save("count", "");
+    std::vector<std::thread> writers;
+    for (int writer = 0; writer < 4; ++writer)
+        writers.emplace_back([this] {
+            for (int i = 0; i < 50; ++i) {
+                const OutputLock lock(path("count"));
+                write_file_atomically(path("count"), text("count") + '.');
+            }
+        });
+    for (std::thread& writer : writers) writer.join();
+    EXPECT_EQ(text("count").size(), 200U);
+}
+
 }  // namespace
 }  // namespace zonal
