@@ -15,8 +15,13 @@ trap 'rm -rf "$fresh"' EXIT
 cmake -DZONAL_GEN="$generator" -DOUT="$fresh" -P "$root/cmake/regenerate.cmake"
 
 if [ "$accept" = yes ]; then
-  rm -rf "$committed"
-  cp -r "$fresh" "$committed"
+  # Whole beside the old files before those go: a full disk or an interrupt loses nothing.
+  whole=$(mktemp -d "$(dirname "$committed")/.accepted-XXXXXX")
+  trap 'if [ -e "$whole/old" ] && [ ! -e "$committed" ]; then mv "$whole/old" "$committed"; fi; rm -rf "$fresh" "$whole"' EXIT
+  cp -r "$fresh" "$whole/new"
+  chmod 755 "$whole/new"  # mktemp made it for its owner alone
+  if [ -e "$committed" ]; then mv "$committed" "$whole/old"; fi
+  mv "$whole/new" "$committed"
   echo "accepted: $committed holds what $(basename "$generator") writes"
   exit 0
 fi

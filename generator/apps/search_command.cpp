@@ -28,20 +28,26 @@ namespace {
 
 constexpr double kSecondsBetweenSaves = 5;
 
-/// Set by Ctrl-C: the search ends after its generation and the best is kept.
+/// Set by Ctrl-C or a request to terminate: the search ends after its generation and the best is kept.
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
-/// Catches Ctrl-C while it lives.
+/// Catches Ctrl-C and SIGTERM while it lives.
 class InterruptGuard {
   public:
-    InterruptGuard() : previous_(std::signal(SIGINT, [](int) { stop_requested = true; })) {}
-    ~InterruptGuard() { std::signal(SIGINT, previous_); }
+    InterruptGuard() : interrupt_(std::signal(SIGINT, stop)), terminate_(std::signal(SIGTERM, stop)) {}
+    ~InterruptGuard() {
+        std::signal(SIGINT, interrupt_);
+        std::signal(SIGTERM, terminate_);
+    }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   private:
-    void (*previous_)(int);
+    static void stop(int) { stop_requested = true; }
+
+    void (*interrupt_)(int);
+    void (*terminate_)(int);
 };
 
 /// As the person typed them; zero means "by the method".
@@ -214,11 +220,16 @@ search::SearchResult find_lobes(const SearchOptions& options, const search::Prob
 void run(const SearchOptions& options) {
     check_use(options);
     check_is_writable("--out", options.out);
-    if (!options.archive.empty()) check_is_writable("--archive", options.archive);
+    if (!options.archive.empty()) {
+        check_is_writable("--archive", options.archive);
+        if (is_same_file(options.archive, options.out))
+            throw UserError(
+                fmt::format("--archive {}: found the file of --out {}, wanted another; name two files",
+                            options.archive, options.out));
+    }
     const search::Problem problem = options.problem();
     const std::optional<LobeTable> start = read_start(options);
-    std::vector<FoundSet> front;
-    if (!options.archive.empty()) front = read_front(options.archive, options.use(), problem);
+    if (!options.archive.empty()) read_front(options.archive, options.use(), problem);  // complains early
     const search::SearchSettings settings = settings_of(options, problem, start);
 
     const bool is_watched = isatty(STDERR_FILENO) != 0;
@@ -232,8 +243,12 @@ void run(const SearchOptions& options) {
         found_in = progress.generation;
         const bool is_worth_saving = solution.score.is_allowed(options.objective);
         if (!is_worth_saving || progress.seconds < saved_at + kSecondsBetweenSaves) return;
-        write_lobe_table(options.out, table_of(options, start, solution, progress.generation));
         saved_at = progress.seconds;
+        try {
+            write_lobe_table(options.out, table_of(options, start, solution, progress.generation));
+        } catch (const UserError& error) {  // the best stays in memory and is written again at the end
+            fmt::print(stderr, "{}warning: {}\n", is_watched ? "\r\033[K" : "", error.what());
+        }
     };
 
     const InterruptGuard guard;
@@ -255,6 +270,8 @@ void run(const SearchOptions& options) {
     write_lobe_table(options.out, best);
     if (!options.archive.empty()) {
         const std::string command = canonical_command(options, start, result.progress.generation);
+        const OutputLock lock(options.archive);  // another search may have added to it meanwhile
+        std::vector<FoundSet> front = read_front(options.archive, options.use(), problem);
         for (const search::Solution& solution : result.front)
             search::add_to_front(front, FoundSet{solution, command});
         write_front(options.archive, options.use(), front);

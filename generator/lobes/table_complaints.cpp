@@ -18,7 +18,10 @@ void TableComplaints::complain(const std::string& field, const std::string& foun
 }
 
 std::string TableComplaints::next_step() const {
-    return fmt::format("run: zonal-gen search {} --out {}", use_.options(), path_.string());
+    return fmt::format(
+        "restore the file (its field command says how it was found), or seek other lobes under another name: "
+        "zonal-gen search {} --out NEW.json",
+        use_.options());
 }
 
 }  // namespace zonal

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "exact/angles.hpp"
 #include "exact/spherical_harmonics.hpp"
@@ -51,20 +53,28 @@ CandidateGrid::CandidateGrid(int max_band, const std::vector<int>& zero_bands)
     }
 }
 
+std::uint16_t narrow_index(std::size_t index) {
+    if (index > std::numeric_limits<std::uint16_t>::max())
+        throw std::length_error("a grid of candidates has at most 65536 angles of a kind");
+    return static_cast<std::uint16_t>(index);
+}
+
 int CandidateGrid::add_theta(const Angle& theta) {
     const int known = index_of(thetas_, theta.value);
     if (known >= 0) return known;
+    const int added = narrow_index(thetas_.size());
     thetas_.push_back(theta);
     tabulate_theta(theta);
-    return static_cast<int>(thetas_.size()) - 1;
+    return added;
 }
 
 int CandidateGrid::add_phi(const Angle& phi) {
     const int known = index_of(phis_, phi.value);
     if (known >= 0) return known;
+    const int added = narrow_index(phis_.size());
     phis_.push_back(phi);
     tabulate_phi(phi);
-    return static_cast<int>(phis_.size()) - 1;
+    return added;
 }
 
 void CandidateGrid::tabulate_theta(const Angle& theta) {

@@ -32,6 +32,9 @@ inline bool contains(const LobeSet& lobes, Lobe lobe) {
     return std::ranges::find(lobes, lobe) != lobes.end();
 }
 
+/// The index of an angle as a `Lobe` holds it. Throws `std::length_error` where it does not fit.
+std::uint16_t narrow_index(std::size_t index);
+
 /// The discrete directions among which lobes are sought: theta at the zeros of the Legendre functions P_k^m
 /// and phi at the zeros of sin(m phi) and cos(m phi), for bands k = 1 … max_band and 1 <= m <= max_band. A
 /// lobe at -w is the lobe at w up to sign, so theta <= pi/2, and phi < pi on the equator. Source:

@@ -46,7 +46,10 @@ bool TrackedInverses::invert_afresh() {
         for (int d = 0; d < band.size; ++d) grid_->evaluate(band.l, lobes_[d], columns.col(d).data());
         band.a_hat.topRows(band.size) = columns.transpose().inverse();
         const ColumnSums sums = count(band.a_hat.data(), static_cast<int>(band.a_hat.rows()), band.size);
-        if (!(sums.squared_norm < kSingularSquaredNorm)) return false;
+        if (!(sums.squared_norm < kSingularSquaredNorm)) {
+            energy_ = std::numeric_limits<double>::infinity();  // never the best
+            return false;
+        }
         band.energy = energy_of(band, sums);
         energy_ += band.energy;
     }
@@ -100,7 +103,7 @@ double TrackedInverses::try_exchange(int position, int other, double limit) {
     return try_change(position, lobes_[other], other + 1, limit);
 }
 
-void TrackedInverses::accept() {
+bool TrackedInverses::accept() {
     for (Band& band : bands_) {
         if (band.is_changed) {
             replace_row(band);
@@ -115,7 +118,7 @@ void TrackedInverses::accept() {
         lobes_[position_] = lobe_;
     }
     energy_ = trial_energy_;
-    if (++accepted_since_refresh_ == kAcceptedBeforeRefresh) invert_afresh();
+    return ++accepted_since_refresh_ < kAcceptedBeforeRefresh || invert_afresh();
 }
 
 namespace {
@@ -175,7 +178,10 @@ LobeSet anneal_by_swaps(TrackedInverses& state, const CandidateGrid& grid, const
             energy = state.try_replace(position, lobe, limit);
         }
         if (!(energy <= limit)) continue;
-        state.accept();
+        if (!state.accept()) {  // rounding had hidden that it is singular
+            state.reset(best);
+            continue;
+        }
         if (state.energy() < best_energy - 1e-9) {
             best_energy = state.energy();
             best = state.lobes();

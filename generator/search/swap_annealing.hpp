@@ -44,7 +44,8 @@ class TrackedInverses {
     double try_exchange(int position, int other, double limit);
 
     /// Makes the last tried change, whose energy must have been finite.
-    void accept();
+    /// False where a fresh inversion finds the lobes singular: then the energy is infinite until `reset`.
+    bool accept();
 
   private:
     struct Band {

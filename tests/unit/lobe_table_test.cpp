@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// An order-3 table with 16 zeros in band 2.
 LobeTable small_table() {
@@ -76,8 +77,8 @@ class LobeTableFile : public testing::Test {
 
     /// File and next step, which every message has.
     auto names_file_and_next_step() const {
-        return AllOf(HasSubstr(path_.string()),
-                     HasSubstr("run: zonal-gen search --order 3 --out " + path_.string()));
+        return AllOf(HasSubstr(path_.string()), HasSubstr("zonal-gen search --order 3 --out NEW.json"),
+                     Not(HasSubstr("--out " + path_.string())));
     }
 
     fs::path folder_, path_;

@@ -97,5 +97,10 @@ TEST(Candidates, images_keep_the_distance_to_the_pole) {
     for (const Lobe image : images) EXPECT_EQ(image.theta, lobe.theta);
 }
 
+TEST(Candidates, angle_beyond_the_16_bits_of_a_lobe_is_refused) {
+    EXPECT_EQ(narrow_index(65535), 65535);
+    EXPECT_THROW(narrow_index(65536), std::length_error);
+}
+
 }  // namespace
 }  // namespace zonal::search

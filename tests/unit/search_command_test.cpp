@@ -164,5 +164,18 @@ TEST_F(SearchCommand, believes_no_archive_that_its_angles_do_not_confirm) {
     EXPECT_THAT(complaint_about([](auto& json) { json = "no archive"; }), HasSubstr("band: found nothing"));
 }
 
+TEST_F(SearchCommand, request_to_terminate_keeps_the_best) {
+    EXPECT_EQ(search("--band 4 --seconds 60 --on-grid", "a.json", "timeout --preserve-status 3"), 0);
+    EXPECT_NO_THROW(read_lobe_table(path("a.json"), LobeUse::band(4)));
+}
+
+TEST_F(SearchCommand, archive_that_is_the_table_is_refused) {
+    fs::create_symlink("a.json", path("link.json"));
+    EXPECT_NE(search("--band 4 --generations 1 --on-grid --archive '" + path("link.json") + "'", "a.json"),
+              0);
+    EXPECT_THAT(bytes("output"), HasSubstr("wanted another"));
+    EXPECT_FALSE(fs::exists(path("a.json")));
+}
+
 }  // namespace
 }  // namespace zonal

@@ -104,5 +104,15 @@ TEST(AnnealBySwaps, improves_what_it_is_given) {
     EXPECT_LT(score(problem, grid, end).cost({}), score(problem, grid, start).cost({}) - 10);
 }
 
+TEST(TrackedInverses, singular_set_has_infinite_energy) {
+    const Problem problem = Problem::shared(3);
+    const CandidateGrid grid(2);
+    Random random(3, 0);
+    TrackedInverses state(problem, grid, {}, 1);
+    ASSERT_TRUE(state.reset(random_regular_set(problem, grid, random)));
+    EXPECT_FALSE(state.reset(LobeSet(5, grid.canonical(2, 1))));
+    EXPECT_EQ(state.energy(), kAnything);
+}
+
 }  // namespace
 }  // namespace zonal::search
