@@ -8,6 +8,7 @@ accept=no
 if [ "${1:-}" = --accept ]; then accept=yes; shift; fi
 if [ $# -lt 1 ]; then sed -n '2,4s/^# //p' "$0" >&2; exit 2; fi
 generator=$1
+[ -x "$generator" ] || { echo "$generator: found no program, wanted zonal-gen; run: bash cmake/test.sh" >&2; exit 2; }
 committed=${2:-$root/generated}
 
 fresh=$(mktemp -d)

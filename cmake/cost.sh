@@ -7,7 +7,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${1:-$root/build/release}
 count=${2:-20}
 jobs=$build/.ninja_log
-tests=$build/Testing/Temporary/CTestCostData.txt
+tests=$build/Testing/Temporary/LastTest.log
+[[ $count =~ ^[0-9]+$ ]] || { echo "COUNT: found '$count', wanted a whole number" >&2; exit 2; }
 [ -f "$jobs" ] || { echo "$jobs: no such file, wanted the log of a build; run: bash cmake/test.sh" >&2; exit 1; }
 
 longest() { # TITLE: of lines "seconds name", sorted; their sum first
@@ -22,4 +23,5 @@ awk -F '\t' 'NF >= 5 { last[$4] = $0 }
         if (!(key in seen)) { seen[key] = 1; print (field[2] - field[1]) / 1000, output } } }' "$jobs" |
   longest "build jobs"
 [ -f "$tests" ] || { echo "no test was run in $build"; exit 0; }
-awk '$0 == "---" { exit } { name = $1; for (i = 2; i < NF - 1; ++i) name = name " " $i; print $NF, name }' "$tests" | longest "tests"
+awk '/^[0-9]+\/[0-9]+ Testing: / { sub(/^[^:]*: /, ""); name = $0 } /^Test time = / { print $4, name }' "$tests" |
+  longest "tests of the last run of ctest"
