@@ -304,11 +304,11 @@ LobeSet LobeSet::ring(int order) {
 LobeSet LobeSet::per_band(const std::vector<const LobeTable*>& tables) {
     using Direction = exact::Direction<Real>;
     LobeSet set;
-    const auto append = [&](const BandFactorization& band, const std::vector<Direction>& directions) {
-        set.lobes_of.emplace_back(directions.size());
+    const auto append = [&](const BandFactorization& band, const std::vector<Direction>& lobes) {
+        set.lobes_of.emplace_back(lobes.size());
         std::iota(set.lobes_of.back().begin(), set.lobes_of.back().end(),
                   static_cast<int>(set.directions.size()));
-        set.directions.insert(set.directions.end(), directions.begin(), directions.end());
+        set.directions.insert(set.directions.end(), lobes.begin(), lobes.end());
         set.bands.push_back(band);
         ++set.order;
     };
