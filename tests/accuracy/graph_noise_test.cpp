@@ -39,8 +39,7 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
         const auto rotations = static_cast<int>(cases::some_of(order <= 5 ? 20 : 4));
         const double worst = worst_of_rotations(order, kernel, rotations);
         EXPECT_LE(worst, std::stod(bounds.at(name).excess_text)) << name;
-        const bool is_shifted =
-            name == "rotate_polynomial" || (order == 3 && (name == "rotate" || name == "rotate_channels"));
+        const bool is_shifted = name == "rotate_polynomial" || (order == 3 && name == "rotate");
         const bool is_dense = name == "blocks" || (name == "rotate_accurate" && order > 4);
         if (is_shifted || is_dense) continue;
         EXPECT_LE(worst, granted * (1 + kDifferences)) << name;
