@@ -12,27 +12,20 @@ trap 'rm -rf "$folder"' EXIT
 nvcc --version | sed -n 's/.*release \([^,]*\),.*/nvcc \1/p'
 printf '%s\n\n| N | kernel | registers | spill stores, loads, bytes | stack, bytes |\n|---|---|---|---|---|\n' "$architecture"
 for order in "$@"; do
-  header=$(printf 'generated/cpp/zonal/order%02d.hpp' "$order")
-  # Kernels are plain functions that a device can run once they are marked; builtins of g++ are CUDA's functions.
-  sed -E 's/^(void |\[\[gnu::always_inline\]\] inline)/__device__ \1/; s/__builtin_(sqrtf?|copysignf?|fmaf?)/::\1/' \
-    "$header" >"$folder/order.hpp"
   for kernel in rotate rotate_accurate rotate_zhf; do
-    grep -q "^__device__ void $kernel(" "$folder/order.hpp" || continue
-    # What loops over tables is left out: those are arrays of the host.
-    sed -n "/^__device__ void $kernel(/,/^}/p" "$folder/order.hpp" | grep Runs >/dev/null && continue
     cat >"$folder/kernel.cu" <<CODE
-#include "order.hpp"
+#include "zonal/order$(printf %02d "$order").hpp"
 extern "C" __global__ void turn(const float* R, const float* f, float* out, unsigned count) {
     const unsigned v = blockIdx.x * blockDim.x + threadIdx.x;
     if (v < count)
         zonal::order$order::$kernel<float>(R + 9 * v, f + $((order * order)) * v, out + $((order * order)) * v);
 }
 CODE
-    nvcc -std=c++17 -cubin -arch="$architecture" -Xptxas -v -o "$folder/kernel.cubin" "$folder/kernel.cu" 2>&1 |
+    nvcc -std=c++17 -Igenerated/cpp -cubin -arch="$architecture" -Xptxas -v -o "$folder/kernel.cubin" "$folder/kernel.cu" 2>&1 |
       awk -v order="$order" -v kernel="$kernel" '
         /stack frame/ { stack = $1; stores = $5; loads = $9 }
         /Used/ { for (i = 1; i <= NF; ++i) if ($i == "Used") registers = $(i + 1) }
-        /error/ && ++errors <= 5 { print > "/dev/stderr" }
+        /error|warning/ && ++errors <= 5 { print > "/dev/stderr" }
         END { if (errors || registers == "") exit 1
               printf "| %d | %s | %d | %d, %d | %d |\n", order, kernel, registers, stores, loads, stack }'
   done
