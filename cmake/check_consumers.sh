@@ -25,6 +25,7 @@ check() { # NAME FOLDER [options of cmake]
 }
 
 check with_own_fmt with_own_fmt -DCMAKE_CXX_FLAGS=-O1
+check with_own_fmt_and_generator with_own_fmt -DZONAL_BUILD_GENERATOR=ON -DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON
 check no_packages no_packages -DCMAKE_CXX_FLAGS=-O1
 check strict_warnings_by_g++ strict_warnings -DCMAKE_CXX_COMPILER=g++
 check strict_warnings_by_clang++ strict_warnings -DCMAKE_CXX_COMPILER=clang++

@@ -23,6 +23,18 @@ quietly cmake --install "$build" --prefix "$work/installed"
 mv "$work/installed" "$work/prefix"
 prefix=$work/prefix
 test -s "$prefix/share/doc/zonal/LICENSE"
+# No kernel that a file compiled otherwise could replace.
+for library in "$prefix"/lib*/libzonal_*.a; do
+  nm -C "$library" 2>/dev/null | grep -E 'zonal::order[0-9]+::' >>"$work/kernels" || true
+done
+if ! grep -q ' t ' "$work/kernels"; then
+  echo "$prefix: found no kernel in its libraries, wanted some; teach cmake/check_install.sh their names" >&2
+  exit 1
+fi
+if grep -E ' [WVu] ' "$work/kernels" >&2; then
+  echo "$prefix: found the kernels above, which another file's copy could replace, wanted none" >&2
+  exit 1
+fi
 
 has_generator=OFF
 if [ -x "$prefix/bin/zonal-gen" ]; then has_generator=ON; fi
