@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 # One module; its output is shown where a tool refuses it.
 check() {
   local name out
-  name=$(basename "$1" .spvasm)
+  name=$(basename "$(dirname "$1")")_$(basename "$1" .spvasm)
   out=$2/$name
   if ! {
     spirv-as --preserve-numeric-ids --target-env spv1.3 "$1" -o "$out.spv" &&
@@ -30,8 +30,7 @@ check() {
 }
 export -f check
 
-# orderNN.spvasm holds functions for spirv-link, no compute module.
-mapfile -t modules < <(find "$folder" -name 'order*_*.spvasm' | LC_ALL=C sort)
-[ ${#modules[@]} -gt 0 ] || { echo "$folder: found no order*_*.spvasm, wanted compute modules" >&2; exit 1; }
+mapfile -t modules < <(find "$folder" -name '*.spvasm' | LC_ALL=C sort)
+[ ${#modules[@]} -gt 0 ] || { echo "$folder: found no .spvasm, wanted compute modules" >&2; exit 1; }
 printf '%s\0' "${modules[@]}" | xargs -0 -P "$(nproc)" -I{} bash -c 'check "$1" "$2"' check {} "$work"
 echo "${#modules[@]} modules go through spirv-cross to HLSL, MSL and ESSL 3.10, and the ESSL through glslang"

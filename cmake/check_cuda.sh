@@ -12,14 +12,13 @@ trap 'rm -rf "$work"' EXIT
 # What the toolkit's headers would define.
 {
   for side in host device global; do printf '#define __%s__ __attribute__((%s))\n' $side $side; done
-  find "$folder" -name 'order??.hpp' -printf '%f\n' | LC_ALL=C sort | while read -r header; do
-    order=$((10#${header//[!0-9]/}))
-    printf '#include "zonal/%s"\n' "$header"
-    for kernel in $(grep -A1 '^template <class T, class V = T>$' "$folder/zonal/$header" |
-      sed -n 's/^.*void \(rotate[a-z_]*\)(const T\* R, const V\* f, V\* out).*/\1/p' | sort -u); do
-      printf '__global__ void %s%d(const float* R, const float* f, float* out) { zonal::order%d::%s<float>(R, f, out); }\n' \
-        "$kernel" "$order" "$order" "$kernel"
-    done
+  find "$folder/zonal" -path '*/order*/rotate*.hpp' | LC_ALL=C sort | while read -r header; do
+    kernel=$(basename "$header" .hpp)
+    order=$(basename "$(dirname "$header")")
+    order=$((10#${order#order}))
+    printf '#include "%s"\n' "$(realpath "$header")"
+    printf '__global__ void %s%d(const float* R, const float* f, float* out) { zonal::order%d::%s<float>(R, f, out); }\n' \
+      "$kernel" "$order" "$order" "$kernel"
   done
 } >"$work/kernels.cu"
 clang++ -x cuda -std=c++17 -Wall -Wextra -Werror -Wno-unknown-cuda-version --cuda-device-only --cuda-gpu-arch=sm_70 \

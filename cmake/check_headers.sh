@@ -63,7 +63,7 @@ is_open {
         instantiate("T", "float", ""); instantiate("T", "double", "")
     } else if (parameters == "template <class T, class V = T>") {
         instantiate("T V", "float", "float"); instantiate("T V", "double", "double"); instantiate("T V", "float", "Signal")
-    } else if (parameters == "template <class V>" || parameters == "template <class V, class T = typename detail::scalar_of<V>::type>") {
+    } else if (parameters == "template <class V>" || parameters == "template <class V, class T = typename kernel_support::scalar_of<V>::type>") {
         instantiate("V", "float", "float"); instantiate("V", "double", "double"); instantiate("V", "float", "Signal")
     } else {
         fail("a kernel of unknown parameters, " parameters "; teach cmake/check_headers.sh what to compile it with")
@@ -77,7 +77,7 @@ AWK
 check() {
   local work=$1 folder=$2 header=$3 compiler source status=0
   shift 3
-  source=$work/$(basename "$header").$$.cpp
+  source=$work/$$.cpp
   { printf '#include "%s"\n#include "%s/signal.hpp"\n' "${header#"$folder/"}" "$work"; awk -f "$work/instantiate.awk" "$header"; } \
     >"$source" || return 1
   grep -c '^template void' "$source" >>"$work/counts" || true

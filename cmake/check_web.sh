@@ -32,7 +32,7 @@ fi
 for order in 3 6 10; do
   "$build/bin/zonal-gen" emit --order $order --language wgsl --out "$work/wgsl" >"$work/wgsl.log"
 done
-timeout 120 node "$work/check_wgsl.mjs" "$chromium" "$work"/wgsl/*.wgsl || {
+timeout 120 node "$work/check_wgsl.mjs" "$chromium" "$work"/wgsl/*/*.wgsl || {
   echo "Chromium's WebGPU does not take what generator/emit/wgsl.cpp prints (status $?)" >&2
   exit 1
 }

@@ -29,6 +29,8 @@ endforeach()
 install(DIRECTORY "${ZONAL_GENERATED_DIR}/zonal" runtime/include/zonal
   "${PROJECT_BINARY_DIR}/runtime/include/zonal"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
+# Shaders as they are committed.
+install(DIRECTORY generated/glsl generated/spirv DESTINATION "${CMAKE_INSTALL_DATADIR}/zonal")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # What static libraries are linked with has to be found by who links them; shared ones bring it.

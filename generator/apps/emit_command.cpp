@@ -16,6 +16,8 @@
 #include "emit/glsl.hpp"
 #include "emit/glsl_tailored.hpp"
 #include "emit/spirv.hpp"
+#include "emit/spirv_tools.hpp"
+#include "emit/text.hpp"
 #include "emit/wgsl.hpp"
 #include "io/output_file.hpp"
 #include "io/user_error.hpp"
@@ -35,7 +37,9 @@ struct EmitOptions {
     std::string language;
     std::string languages;
     std::string table;
+    std::vector<std::string> kernels;
     std::string out;
+    bool has_twins = false;
     bool is_optimized = false;
     bool is_binary = false;
 };
@@ -49,12 +53,12 @@ std::string as_bytes(const std::vector<std::uint32_t>& words) {
 /// Every module is assembled and validated before it is written.
 Files spirv_files(const emit::Unit& unit, const EmitOptions& options) {
     Files files;
-    for (emit::SpirvModule& module : emit::print_spirv(unit)) {
-        if (options.is_optimized) module.file.content = emit::optimize_spirv(module.file.content, module.use);
-        const std::vector<std::uint32_t> words = emit::assemble(module.file.content, module.use);
-        files.push_back(module.file);
+    for (emit::File& module : emit::print_spirv(unit, options.has_twins)) {
+        if (options.is_optimized) module.content = emit::optimize_spirv(module.content);
+        const std::vector<std::uint32_t> words = emit::assemble(module.content);
+        files.push_back(module);
         if (options.is_binary)
-            files.push_back({fs::path(module.file.path).replace_extension(".spv").string(), as_bytes(words)});
+            files.push_back({fs::path(module.path).replace_extension(".spv").string(), as_bytes(words)});
     }
     return files;
 }
@@ -72,11 +76,10 @@ emit::TailoredRotation tailored_rotation(const kernels::LobeSet& lobes) {
 }
 
 Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
-    Files files{{unit.file_stem + ".glsl", emit::print_glsl(unit)}};
-    if (order.tables.shared)
-        files.push_back({unit.file_stem + "_tailored.glsl",
-                         emit::print_glsl_tailored(
-                             unit, tailored_rotation(kernels::LobeSet::shared(order.tables.shared->table)))});
+    Files files = emit::print_glsl(unit);
+    if (order.tables.shared && unit.wants(emit::kTailoredName))
+        files.push_back(emit::print_glsl_tailored(
+            unit, tailored_rotation(kernels::LobeSet::shared(order.tables.shared->table))));
     return files;
 }
 
@@ -85,18 +88,14 @@ using Language = std::function<Files(const emit::Unit&, const OrderKernels&, con
 /// Adding a language is one entry here.
 const std::map<std::string, Language>& languages() {
     static const std::map<std::string, Language> all{
-        {"cpp",
-         [](const emit::Unit& unit, const OrderKernels&, const EmitOptions&) -> Files {
-             return {{"zonal/" + unit.file_stem + ".hpp", emit::print_cpp(unit)}};
-         }},
+        {"cpp", [](const emit::Unit& unit, const OrderKernels&,
+                   const EmitOptions&) { return emit::print_cpp(unit); }},
         {"glsl", [](const emit::Unit& unit, const OrderKernels& order,
                     const EmitOptions&) { return glsl_files(unit, order); }},
         {"spirv", [](const emit::Unit& unit, const OrderKernels&,
                      const EmitOptions& options) { return spirv_files(unit, options); }},
-        {"wgsl",
-         [](const emit::Unit& unit, const OrderKernels&, const EmitOptions&) -> Files {
-             return {{unit.file_stem + ".wgsl", emit::print_wgsl(unit)}};
-         }},
+        {"wgsl", [](const emit::Unit& unit, const OrderKernels&,
+                    const EmitOptions&) { return emit::print_wgsl(unit); }},
     };
     return all;
 }
@@ -109,55 +108,65 @@ const Language& find_language(const char* option, const std::string& name) {
     throw UserError(fmt::format("{}: found '{}', wanted one of: {}", option, name, known));
 }
 
-std::vector<std::string> lines_of(const OrderTables& tables) {
-    if (!tables.shared) return {"none for this order, so no searched lobes: zonal-gen search"};
-    const auto describe = [](const NamedTable& source, const char* use = "") {
-        return fmt::format("{}  sha256:{}{}", source.name, source.table.short_hash(), use);
-    };
-    std::vector<std::string> lines{describe(*tables.shared)};
-    if (tables.has_own_rotate_zhf()) lines.push_back(describe(*tables.rotate_zhf, ", of rotate_zhf"));
-    for (const TablePointer& source : tables.per_band) lines.push_back(describe(*source));
-    return lines;
-}
-
-/// The command that makes one language of an order, whatever else the run makes.
-std::string command_of(const EmitOptions& options, const OrderKernels& order, const std::string& language) {
-    return fmt::format("zonal-gen emit --order {} --language {}{}{} --out generated/{}", order.order,
-                       language, options.table.empty() ? "" : " --table " + order.tables.shared->name,
-                       options.is_optimized ? " --optimize" : "", language);
+/// The tables that a kernel is made of.
+std::vector<TablePointer> tables_of(const graph::Kernel& kernel, const OrderTables& tables) {
+    if (kernel.variant == "per_band") return tables.per_band;
+    if (!kernel.needs_lobes) return {};
+    return {kernel.name == "rotate_zhf" ? tables.rotate_zhf : tables.shared};
 }
 
 /// All but the command.
-emit::Unit make_unit(const OrderKernels& order) {
+emit::Unit make_unit(const OrderKernels& order, const EmitOptions& options) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", order.order);
-    unit.file_stem = fmt::format("order{:02}", order.order);
-    unit.tables = lines_of(order.tables);
+    unit.folder = fmt::format("order{:02}", order.order);
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
     unit.kernels = order.kernels;
+    unit.wanted = {options.kernels.begin(), options.kernels.end()};
     for (const graph::Kernel& kernel : unit.kernels)
-        for (const std::string& source : kernel.sources)
-            if (std::find(unit.sources.begin(), unit.sources.end(), source) == unit.sources.end())
-                unit.sources.push_back(source);
+        for (const TablePointer& source : tables_of(kernel, order.tables))
+            unit.tables[kernel.full_name()].push_back(
+                fmt::format("{}  sha256:{}", source->name, source->table.short_hash()));
     unit.bounds = published_bounds(order.order, order.tables);
-    unit.constants = {
-        {"kHasLobes", order.tables.shared ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
-    const bool has_per_band = std::ranges::any_of(
-        unit.kernels, [](const graph::Kernel& kernel) { return kernel.variant == "per_band"; });
-    unit.constants.push_back(
-        {"kHasPerBandLobes", has_per_band ? 1 : 0, "1 where lobes of each band's own are here, else 0"});
-    const bool has_polynomial = std::ranges::any_of(
-        unit.kernels, [](const graph::Kernel& kernel) { return kernel.name == "rotate_polynomial"; });
-    unit.constants.push_back(
-        {"kHasPolynomial", has_polynomial ? 1 : 0,
-         "1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0"});
+    const auto has = [&](const auto& is_wanted) {
+        return std::ranges::any_of(unit.kernels, is_wanted) ? 1 : 0;
+    };
     const graph::Kernel& prepare = graph::kernel_named(order.kernels, "prepare");
-    unit.constants.push_back({"kScalars", prepare.output.size, "Values that `prepare` makes"});
     const bool takes_mirrors =
         !graph::kernel_named(order.kernels, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
-    unit.constants.push_back({"kTakesMirrors", takes_mirrors ? 1 : 0,
-                              "1 where `rotate` of one channel and `prepare` take det R = -1, else 0"});
+    unit.constants = {
+        {"kHasLobes", order.tables.shared ? 1 : 0, "1 where the lobe kernels are here, else 0"},
+        {"kHasPerBandLobes", has([](const graph::Kernel& kernel) { return kernel.variant == "per_band"; }),
+         "1 where lobes of each band's own are here, else 0"},
+        {"kHasPolynomial",
+         has([](const graph::Kernel& kernel) { return kernel.name == "rotate_polynomial"; }),
+         "1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0"},
+        {"kScalars", prepare.output.size, "Values that `prepare` makes"},
+        {"kTakesMirrors", takes_mirrors ? 1 : 0,
+         "1 where `rotate` of one channel and `prepare` take det R = -1, else 0"}};
     return unit;
+}
+
+/// The command that makes a kernel of one language, or all of them, whatever else the run makes.
+std::string command_of(const EmitOptions& options, const emit::Unit& unit, const OrderKernels& order,
+                       const std::string& language, const std::string& kernel) {
+    const bool has_table = !options.table.empty() && (kernel.empty() || unit.tables.contains(kernel));
+    return fmt::format("zonal-gen emit --order {} --language {}{}{}{} --out generated/{}", order.order,
+                       language, kernel.empty() ? "" : " --kernels " + kernel,
+                       has_table ? " --table " + order.tables.shared->name : "",
+                       options.is_optimized ? " --optimize" : "", language);
+}
+
+/// Each name of --kernels is one that every language has.
+void check_kernels(const emit::Unit& unit, const std::string& language, const Files& files) {
+    std::set<std::string> missing = unit.wanted;
+    for (const emit::File& file : files) missing.erase(fs::path(file.path).stem().string());
+    if (missing.empty()) return;
+    std::string known;
+    for (const graph::Kernel& kernel : unit.kernels)
+        known += (known.empty() ? "" : ", ") + emit::plain_name(kernel);
+    throw UserError(fmt::format("--kernels: found '{}', which {} has not in {}, wanted some of: {}",
+                                *missing.begin(), unit.name, language, known));
 }
 
 EmitJobs jobs_of(const EmitOptions& options) {
@@ -185,19 +194,29 @@ fs::path folder_of(const EmitOptions& options, const std::string& language) {
     return fs::path(options.out.empty() ? "generated" : options.out) / language;
 }
 
+/// All files are made before the first is written: a mistake leaves none of them behind.
 void run(const EmitOptions& options) {
     TableShelf shelf = project_tables();
+    Files all;
+    std::set<std::string> paths;  // orders share files
     for (const auto& [number, names] : jobs_of(options)) {
         const OrderKernels order = build_order_kernels(shelf, number, options.table);
-        emit::Unit unit = make_unit(order);
+        emit::Unit unit = make_unit(order, options);
         for (const std::string& name : names) {
-            unit.command = command_of(options, order, name);
-            const fs::path folder = folder_of(options, name);
-            for (const emit::File& file : languages().at(name)(unit, order, options)) {
-                write_file_atomically(folder / file.path, file.content);
-                fmt::print("{}\n", (folder / file.path).string());
+            unit.command = [&](const std::string& kernel) {
+                return command_of(options, unit, order, name, kernel);
+            };
+            Files files = languages().at(name)(unit, order, options);
+            check_kernels(unit, name, files);
+            for (emit::File& file : files) {
+                file.path = (folder_of(options, name) / file.path).string();
+                if (paths.insert(file.path).second) all.push_back(std::move(file));
             }
         }
+    }
+    for (const emit::File& file : all) {
+        write_file_atomically(file.path, file.content);
+        fmt::print("{}\n", file.path);
     }
 }
 
@@ -220,6 +239,14 @@ void add_emit_command(CLI::App& app) {
     command->add_option("--out", options->out,
                         "folder to write into (default: generated/LANGUAGE); with --languages the folder of "
                         "their folders (default: generated)");
+    command
+        ->add_option("--kernels", options->kernels,
+                     "these kernels only, such as rotate,blocks, and what they call (default: all)")
+        ->delimiter(',');
+    command->add_flag(
+        "--twins", options->has_twins,
+        "spirv: beside each module one of three channels (_rgb) and one whose arithmetic is never "
+        "contracted (_precise)");
     command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");
     command->add_flag("--binary", options->is_binary, "spirv: write assembled modules (.spv) as well");
     command->callback([options] {

@@ -1,13 +1,15 @@
 #pragma once
 
-#include <string>
+#include <vector>
 
+#include "emit/file.hpp"
 #include "emit/unit.hpp"
 
 namespace zonal::emit {
 
-/// Prints a unit as one C++17 header, at most 100 columns, LF. Throws std::logic_error when a kernel could
-/// not be called in place.
-std::string print_cpp(const Unit& unit);
+/// Prints kernels as C++17 headers, at most 100 columns, LF: zonal/FOLDER/KERNEL.hpp; what they share,
+/// zonal/kernel_support.hpp; and where the unit wants all of them zonal/FOLDER.hpp, which includes each.
+/// Throws std::logic_error when a kernel could not be called in place.
+std::vector<File> print_cpp(const Unit& unit);
 
 }  // namespace zonal::emit

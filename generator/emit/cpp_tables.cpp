@@ -234,10 +234,10 @@ std::string TablePrinter::tables() const {
     items.clear();
     for (const graph::Number& constant : program_.constants) items.push_back(literal(constant));
     text += fmt::format("\ninline constexpr double k{}Exact[] = {{\n{}}};\n", name_, filled_lines(items));
-    return text +
-           fmt::format(
-               "template <class C>\ninline constexpr detail::Constants<C, {}> k{}Constants(k{}Exact);\n",
-               items.size(), name_, name_);
+    return text + fmt::format(
+                      "template <class C>\ninline constexpr kernel_support::Constants<C, {}> "
+                      "k{}Constants(k{}Exact);\n",
+                      items.size(), name_, name_);
 }
 
 std::string TablePrinter::body(int indentation) const {

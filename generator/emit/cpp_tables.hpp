@@ -6,7 +6,7 @@
 
 namespace zonal::emit {
 
-/// The loops that every table-driven kernel of a header calls; printed once, before the first of them.
+/// The loops that table-driven kernels call: a header of their own.
 extern const char* const kTableLoops;
 
 /// A kernel as loops over tables: the operations of its graph, and far less text than a line for each.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "emit/straight_line.hpp"
 #include "emit/text.hpp"
 
@@ -58,13 +60,9 @@ std::string signature(const Unit& unit, const Kernel& kernel, const GlslSyntax& 
 
 std::string print_function(const Unit& unit, const Kernel& kernel, bool has_channels) {
     const GlslSyntax syntax(has_channels);
-    std::string body;
-    if (has_channels && !kernel.for_channels.empty())
-        body =
-            fmt::format("    zonal_{}_{}(R, f, {});\n", unit.name, kernel.for_channels, kernel.output.name);
-    else
-        body = print_glsl_statements(kernel, has_channels, 4);
-    return fmt::format("{} {{\n{}}}\n", signature(unit, kernel, syntax), body);
+    const Kernel& body = has_channels ? for_channels(unit, kernel) : kernel;
+    return fmt::format("{} {{\n{}}}\n", signature(unit, kernel, syntax),
+                       print_glsl_statements(body, has_channels, 4));
 }
 
 }  // namespace
@@ -75,18 +73,23 @@ std::string print_glsl_statements(const Kernel& kernel, bool has_channels, int i
 
 std::string print_glsl_kernel(const Unit& unit, const Kernel& original) {
     const Kernel kernel = with_allowed_names(original);
-    std::string text = fmt::format("\n{}{}", shader_comment(kernel), print_function(unit, kernel, false));
+    std::string text = shader_comment(unit, kernel) + print_function(unit, kernel, false);
     if (kernel.uses(Kind::signal)) text += print_function(unit, kernel, true);
-    return text;
+    return glsl_once(fmt::format("{}_{}", unit.name, plain_name(kernel)), text);
 }
 
-std::string print_glsl(const Unit& unit) {
-    std::string text = comment("//", banner_lines(unit));
-    text +=
-        "//\n// Functions for GLSL 4.50 and ES 3.00, highp. Arrays are R row-major, signals by index\n"
-        "// l(l+1)+m; a vec3 holds three channels.\n";
-    for (const Kernel& kernel : unit.kernels) text += print_glsl_kernel(unit, kernel);
-    return text;
+std::string glsl_once(const std::string& name, const std::string& text) {
+    std::string guard = "ZONAL_";
+    for (const char c : name) guard += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return fmt::format("\n#ifndef {0}\n#define {0}\n{1}#endif\n", guard, text);
+}
+
+std::vector<File> print_glsl(const Unit& unit) {
+    std::vector<File> files;
+    for (const Kernel& kernel : shader_kernels(unit))
+        files.push_back({fmt::format("{}/{}.glsl", unit.folder, plain_name(kernel)),
+                         comment("//", banner_lines(unit, kernel)) + print_glsl_kernel(unit, kernel)});
+    return files;
 }
 
 }  // namespace zonal::emit

@@ -43,7 +43,7 @@ std::vector<std::string> cost_texts(const Unit& unit, const TailoredRotation& ro
 }
 
 std::string banner(const Unit& unit, const TailoredRotation& rotation) {
-    std::vector<std::string> lines = opening_lines(unit);
+    std::vector<std::string> lines = opening_lines(unit, kTailoredName, unit.tables.at("resample"));
     append_key(lines, "cost", cost_texts(unit, rotation));
     append_key(lines, "bound", {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
     append_key(lines, "source", graph::kernel_named(unit.kernels, "resample").sources);
@@ -53,7 +53,6 @@ std::string banner(const Unit& unit, const TailoredRotation& rotation) {
 /// A direction whose bilinear filter stays within a face, whatever level is looked up.
 std::string print_face_direction(const Unit& unit) {
     return fmt::format(
-        "\n"
         "// The direction in which stretched faces hold the value for w: all but its largest component "
         "times\n"
         "// 31/32, so that a filter never reaches across an edge of the cube. On an edge one is the "
@@ -97,7 +96,6 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
     const int coefficients = graph::kernel_named(unit.kernels, "resample").output.size;
     const int low = rotation.rotate_low.output.size;
     std::string text = fmt::format(
-        "\n"
         "// Rotates a static signal of three channels that is tabulated: f'(w) = f(R^T w), signal-tailored.\n"
         "// R : 9 values, row-major, of a rotation or a mirror.\n"
         "// low : {low} values, the coefficients of bands 0 and 1, which turn without a table.\n"
@@ -105,7 +103,7 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
         "//   filters linear within a level, nearest or linear between levels.\n"
         "// levels : the mip level of each layer, whole numbers.\n"
         "// o : {coefficients} values, index l(l+1)+m.\n"
-        "// Error: that stated beside the tables. Cost: see the banner. Source: eq. 11.\n"
+        "// Error: that stated beside the tables. Source: eq. 11.\n"
         "void zonal_{name}_rotate_tailored(highp float R[9], highp vec3 low[{low}],\n"
         "        highp samplerCubeArray bands, highp float levels[{layers}], out highp vec3 "
         "o[{coefficients}]) {{\n"
@@ -126,13 +124,16 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
 
 }  // namespace
 
-std::string print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation) {
-    return banner(unit, rotation) +
-           fmt::format(
-               "//\n// Functions for GLSL 4.50 and ES 3.20, highp; to be put behind those of {}.glsl.\n",
-               unit.file_stem) +
-           print_glsl_kernel(unit, rotation.rotate_low) + print_face_direction(unit) +
-           print_rotation(unit, rotation);
+File print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation) {
+    const auto once = [&](const char* name, const std::string& text) {
+        return glsl_once(fmt::format("{}_{}", unit.name, name), text);
+    };
+    return {fmt::format("{}/{}.glsl", unit.folder, kTailoredName),
+            banner(unit, rotation) + "//\n// For GLSL 4.50 and ES 3.20.\n" +
+                print_glsl_kernel(unit, graph::kernel_named(unit.kernels, "lobes")) +
+                print_glsl_kernel(unit, rotation.rotate_low) +
+                once("face_direction", print_face_direction(unit)) +
+                once(kTailoredName, print_rotation(unit, rotation))};
 }
 
 }  // namespace zonal::emit

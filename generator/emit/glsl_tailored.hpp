@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "emit/file.hpp"
 #include "emit/unit.hpp"
 
 namespace zonal::emit {
@@ -23,9 +24,10 @@ struct TailoredRotation {
     graph::Kernel rotate_low;
 };
 
-/// Prints `rotate_tailored` of a unit that has the kernels `lobes` and `resample`: GLSL 4.50 and ES 3.20
-/// functions to be put behind what `print_glsl` prints of that unit. A file of its own, because ES 3.00 has
-/// no cube-map arrays.
-std::string print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation);
+inline constexpr const char* kTailoredName = "rotate_tailored";
+
+/// Prints `rotate_tailored` of a unit that has the kernels `lobes` and `resample`: GLSL 4.50 and ES 3.20,
+/// since ES 3.00 has no cube-map arrays.
+File print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation);
 
 }  // namespace zonal::emit

@@ -24,15 +24,13 @@ std::string id_of(const std::string& name) { return fmt::format("%{}", name); }
 /// The arithmetic of a kernel, and its loads and stores.
 class BodyPrinter {
   public:
-    BodyPrinter(const Kernel& kernel, const SpirvForm& form, const std::string& prefix,
-                SpirvDeclarations& declarations, SpirvMemory& memory)
+    BodyPrinter(const Kernel& kernel, const SpirvForm& form, SpirvDeclarations& declarations,
+                SpirvMemory& memory)
         : kernel_(kernel),
           form_(form),
-          prefix_(prefix),
           declarations_(declarations),
           memory_(memory),
           names_(node_names(kernel)) {
-        for (auto& [id, name] : names_) name = prefix_ + name;
         note_scaled_products();
     }
 
@@ -78,7 +76,7 @@ class BodyPrinter {
         const Node& node = kernel_.graph[id];
         if (node.op == Op::constant) return declarations_.number(float_literal(node.value));
         if (node.op != Op::input || node.kind != Kind::signal) return id_of(names_.at(id));
-        return fmt::format("%{}in_{}_{}", prefix_, kernel_.inputs[node.array].name, node.index);
+        return fmt::format("%in_{}_{}", kernel_.inputs[node.array].name, node.index);
     }
 
     std::string append(const std::string& name, const std::string& instruction) {
@@ -171,7 +169,6 @@ class BodyPrinter {
 
     const Kernel& kernel_;
     SpirvForm form_;
-    std::string prefix_;
     SpirvDeclarations& declarations_;
     SpirvMemory& memory_;
     std::map<Id, std::string> names_;
@@ -203,9 +200,9 @@ std::string SpirvDeclarations::number(const std::string& digits) {
     return type(known->second, fmt::format("OpConstant %float {}", digits));
 }
 
-SpirvBody print_spirv_body(const Kernel& kernel, const SpirvForm& form, const std::string& prefix,
-                           SpirvDeclarations& declarations, SpirvMemory& memory) {
-    return BodyPrinter(kernel, form, prefix, declarations, memory).print();
+SpirvBody print_spirv_body(const Kernel& kernel, const SpirvForm& form, SpirvDeclarations& declarations,
+                           SpirvMemory& memory) {
+    return BodyPrinter(kernel, form, declarations, memory).print();
 }
 
 }  // namespace zonal::emit

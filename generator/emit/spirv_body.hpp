@@ -45,9 +45,8 @@ struct SpirvBody {
     std::vector<std::string> fixed_results;
 };
 
-/// The arithmetic of a kernel, and its loads and stores, in an order that holds few registers. `prefix` keeps
-/// the identifiers of a module's functions apart.
-SpirvBody print_spirv_body(const graph::Kernel& kernel, const SpirvForm& form, const std::string& prefix,
+/// The arithmetic of a kernel, and its loads and stores, in an order that holds few registers.
+SpirvBody print_spirv_body(const graph::Kernel& kernel, const SpirvForm& form,
                            SpirvDeclarations& declarations, SpirvMemory& memory);
 
 }  // namespace zonal::emit

@@ -128,7 +128,7 @@ std::string print_spirv_compute(const Kernel& kernel, const SpirvForm& form) {
     declarations.type("vectors", "OpVariable %push_constants_pointer PushConstant");
     Buffers buffers(kernel, form, declarations);
     const std::string offsets = buffers.offsets();
-    const SpirvBody body = print_spirv_body(kernel, form, "", declarations, buffers);
+    const SpirvBody body = print_spirv_body(kernel, form, declarations, buffers);
 
     std::string text =
         "OpCapability Shader\n"

@@ -10,9 +10,7 @@ namespace zonal::emit {
 
 namespace {
 
-spv_target_env environment(SpirvUse use) {
-    return use == SpirvUse::vulkan_1_1 ? SPV_ENV_VULKAN_1_1 : SPV_ENV_UNIVERSAL_1_3;
-}
+constexpr spv_target_env kEnvironment = SPV_ENV_VULKAN_1_1;
 
 std::size_t end_of_comment(const std::string& text) {
     std::size_t end = 0;
@@ -22,8 +20,8 @@ std::size_t end_of_comment(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::uint32_t> assemble(const std::string& text, SpirvUse use) {
-    spvtools::SpirvTools tools(environment(use));
+std::vector<std::uint32_t> assemble(const std::string& text) {
+    spvtools::SpirvTools tools(kEnvironment);
     std::string message;
     tools.SetMessageConsumer(
         [&](spv_message_level_t, const char*, const spv_position_t& position, const char* what) {
@@ -35,14 +33,14 @@ std::vector<std::uint32_t> assemble(const std::string& text, SpirvUse use) {
     return module;
 }
 
-std::string optimize_spirv(const std::string& text, SpirvUse use) {
+std::string optimize_spirv(const std::string& text) {
     // A fresh optimizer every time: a second run of one object gives other bytes.
-    spvtools::Optimizer optimizer(environment(use));
+    spvtools::Optimizer optimizer(kEnvironment);
     optimizer.RegisterPerformancePasses();
-    std::vector<std::uint32_t> module = assemble(text, use);
+    std::vector<std::uint32_t> module = assemble(text);
     std::string optimized;
     if (!optimizer.Run(module.data(), module.size(), &module) ||
-        !spvtools::SpirvTools(environment(use))
+        !spvtools::SpirvTools(kEnvironment)
              .Disassemble(module, &optimized, SPV_BINARY_TO_TEXT_OPTION_NO_HEADER))
         throw std::logic_error("SPIRV-Tools cannot optimize a module that it found valid");
     return text.substr(0, end_of_comment(text)) + optimized;

@@ -9,12 +9,13 @@
 
 namespace zonal::emit {
 
-/// The banner every generated file opens with, one line an entry, without comment signs: the fixed keys
+/// The banner that the file of a kernel opens with, one line an entry, without comment signs: the fixed keys
 /// command, table, basis, cost, bound, source in that order.
-std::vector<std::string> banner_lines(const Unit& unit);
+std::vector<std::string> banner_lines(const Unit& unit, const graph::Kernel& kernel);
 
-/// The first of them: command, table and basis.
-std::vector<std::string> opening_lines(const Unit& unit);
+/// The first of them: command, table and basis. `kernel`: plain name of the file's kernel; empty: of all.
+std::vector<std::string> opening_lines(const Unit& unit, const std::string& kernel,
+                                       const std::vector<std::string>& tables);
 
 /// Appends a key of the banner and its values, one a line: "key     : first", "          second" …
 void append_key(std::vector<std::string>& lines, const std::string& key,
@@ -35,13 +36,21 @@ std::vector<std::string> purpose_lines(const graph::Kernel& kernel);
 /// What R must be, if not every orthonormal matrix will do.
 std::vector<std::string> precondition_lines(const graph::Kernel& kernel);
 
-std::vector<std::string> source_lines(const graph::Kernel& kernel);
+/// Cost, published error and sources, for the end of that comment.
+std::vector<std::string> closing_lines(const Unit& unit, const graph::Kernel& kernel);
+
+/// The kernel that runs where signal values hold three channels: another one, where that costs less.
+const graph::Kernel& for_channels(const Unit& unit, const graph::Kernel& kernel);
+
+/// The kernels to print in languages where three channels are a form of the same name: not those that another
+/// one takes for its channels.
+std::vector<graph::Kernel> shader_kernels(const Unit& unit);
 
 /// Lines behind a language's sign of comments.
 std::string comment(const std::string& sign, const std::vector<std::string>& lines);
 
 /// What stands in front of a shader's function, behind //.
-std::string shader_comment(const graph::Kernel& kernel);
+std::string shader_comment(const Unit& unit, const graph::Kernel& kernel);
 
 /// A constant as a decimal of at most 17 digits that reads back as the double nearest to it.
 std::string literal(const graph::Number& value);

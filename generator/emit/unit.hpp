@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,18 +25,23 @@ struct Constant {
     std::string meaning;
 };
 
-/// Everything one generated file holds, ready to print in any language: kernels are optimized, texts are
+/// The kernels of one order, ready to print in any language, one a file: kernels are optimized, texts are
 /// final.
 struct Unit {
-    std::string name;                 ///< "order4": namespace or prefix
-    std::string file_stem;            ///< "order04": what names of files begin with
-    std::string command;              ///< the command that makes the same bytes again
-    std::vector<std::string> tables;  ///< path and hash of each lobe table; or that there is none
-    std::string basis;                ///< the convention, one line
-    std::vector<std::string> sources;
+    std::string name;    ///< "order4": namespace or prefix
+    std::string folder;  ///< "order04": of its files
+    std::string basis;   ///< the convention, one line
     std::vector<graph::Kernel> kernels;
     std::vector<Constant> constants;
-    std::map<std::string, Bound> bounds;  ///< by kernel name; a kernel without one says so in the banner
+    std::map<std::string, Bound> bounds;  ///< by kernel; one without says so in its banner
+    /// The lobe tables that a kernel is made of, path and hash, by kernel; none where it needs none.
+    std::map<std::string, std::vector<std::string>> tables;
+    /// The command that makes the file of a kernel again, by its plain name; empty: that of all kernels.
+    std::function<std::string(const std::string& kernel)> command;
+    /// Plain names of the kernels to print; empty: all.
+    std::set<std::string> wanted;
+
+    bool wants(const std::string& kernel) const { return wanted.empty() || wanted.contains(kernel); }
 };
 
 }  // namespace zonal::emit

@@ -47,25 +47,26 @@ std::string print_function(const Unit& unit, const Kernel& kernel, bool has_chan
     const std::string result = array_type(kernel.output, has_channels);
     const std::string head = fmt::format(
         "fn {}({}) -> {} {{\n", function_name(unit, plain_name(kernel), has_channels), parameters, result);
-    if (has_channels && !kernel.for_channels.empty())
-        return head +
-               fmt::format("    return {}(R, f);\n}}\n", function_name(unit, kernel.for_channels, true));
+    const Kernel& body = has_channels ? for_channels(unit, kernel) : kernel;
     return head + fmt::format("    var {}: {};\n{}    return {};\n}}\n", kernel.output.name, result,
-                              print_statements(kernel, WgslSyntax(), 4), kernel.output.name);
+                              print_statements(body, WgslSyntax(), 4), kernel.output.name);
 }
 
 std::string print_kernel(const Unit& unit, const Kernel& kernel) {
-    std::string text = fmt::format("\n{}{}", shader_comment(kernel), print_function(unit, kernel, false));
+    std::string text =
+        fmt::format("\n{}{}", shader_comment(unit, kernel), print_function(unit, kernel, false));
     if (kernel.uses(Kind::signal)) text += print_function(unit, kernel, true);
     return text;
 }
 
 }  // namespace
 
-std::string print_wgsl(const Unit& unit) {
-    std::string text = comment("//", banner_lines(unit));
-    for (const Kernel& kernel : unit.kernels) text += print_kernel(unit, kernel);
-    return text;
+std::vector<File> print_wgsl(const Unit& unit) {
+    std::vector<File> files;
+    for (const Kernel& kernel : shader_kernels(unit))
+        files.push_back({fmt::format("{}/{}.wgsl", unit.folder, plain_name(kernel)),
+                         comment("//", banner_lines(unit, kernel)) + print_kernel(unit, kernel)});
+    return files;
 }
 
 }  // namespace zonal::emit

@@ -14,7 +14,7 @@ printf '%s\n\n| N | kernel | registers | spill stores, loads, bytes | stack, byt
 for order in "$@"; do
   for kernel in rotate rotate_accurate rotate_zhf; do
     cat >"$folder/kernel.cu" <<CODE
-#include "zonal/order$(printf %02d "$order").hpp"
+#include "zonal/order$(printf %02d "$order")/$kernel.hpp"
 extern "C" __global__ void turn(const float* R, const float* f, float* out, unsigned count) {
     const unsigned v = blockIdx.x * blockDim.x + threadIdx.x;
     if (v < count)

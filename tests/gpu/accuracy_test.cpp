@@ -98,7 +98,7 @@ TEST_P(Accuracy, plain_modules_are_within_the_published_bounds) {
             noting.rotate(R.data(), f.data(), out.data());
         }
         batch->run(assembled(
-            read_text(spirv_folder() / fmt::format("{}_{}.spvasm", order_stem(order), kernel.name))));
+            read_text(spirv_folder() / fmt::format("{}/{}.spvasm", order_stem(order), kernel.name))));
         batches.push_back(batch);
         contestants.push_back(
             contestant([batch](const float*, const float* f, float* out) { batch->replay(f, out); }));

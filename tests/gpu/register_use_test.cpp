@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "gpu/emitted_shaders.hpp"
 #include "gpu/pipeline_statistics.hpp"
 #include "gpu/shader_modules.hpp"
 #include "gpu/tailored_shader.hpp"
@@ -24,26 +25,20 @@ const std::map<int, unsigned> kTailoredRegisters{{3, 48}, {4, 84}, {5, 112}, {6,
 
 std::string tailored(int order) { return fmt::format("order{:02}_tailored_rgb", order); }
 
-zonal::gpu::Words tailored_module(int order) {
-    const auto text = [&](const char* suffix) {
-        return zonal::gpu::read_text(fs::path(ZONAL_GENERATED_GLSL) /
-                                     fmt::format("order{:02}{}.glsl", order, suffix));
-    };
-    return zonal::gpu::compiled(zonal::gpu::tailored_compute_shader(order, text(""), text("_tailored")));
-}
-
-/// Statistics of every committed compute module, by its name (order04_rotate_rgb), and of the tailored
+/// Statistics of every compute module of orders 3 to 6, by its name (order04_rotate_rgb), and of the tailored
 /// rotations.
 std::map<std::string, PipelineStatistics> statistics_of_all(const std::string& family) {
     const Device device({.radv_family = family, .wants_executable_properties = true});
     std::map<std::string, PipelineStatistics> all;
-    for (const fs::directory_entry& entry : fs::directory_iterator(ZONAL_GENERATED_SPIRV)) {
-        const std::string name = entry.path().stem().string();
-        if (name.find('_') == std::string::npos) continue;  // functions with linkage: no entry point
-        all[name] = statistics_of(device, zonal::gpu::read_shader(entry.path()));
+    for (int order = 3; order <= 6; ++order) {
+        const std::string stem = zonal::gpu::order_stem(order);
+        for (const fs::directory_entry& entry : fs::directory_iterator(zonal::gpu::spirv_folder() / stem))
+            all[fmt::format("{}_{}", stem, entry.path().stem().string())] =
+                statistics_of(device, zonal::gpu::read_shader(entry.path()));
     }
     for (const auto& [order, registers] : kTailoredRegisters)
-        all[tailored(order)] = statistics_of(device, tailored_module(order));
+        all[tailored(order)] = statistics_of(device, zonal::gpu::compiled(zonal::gpu::tailored_compute_shader(
+                                                         order, zonal::gpu::tailored_text(order))));
     return all;
 }
 
@@ -68,7 +63,7 @@ class RegisterUse : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(RegisterUse, no_kernel_up_to_order_6_spills) {
-    ASSERT_GE(all().size(), 200u) << "of four orders; found fewer in " << ZONAL_GENERATED_SPIRV;
+    ASSERT_GE(all().size(), 200u) << "of four orders; found fewer in " << zonal::gpu::spirv_folder();
     for (const auto& [name, statistics] : all()) {
         EXPECT_EQ(statistics.spilled_vgprs, 0u) << name;
         EXPECT_EQ(statistics.spilled_sgprs, 0u) << name;

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <spirv-tools/libspirv.hpp>
-#include <spirv-tools/linker.hpp>
 #include <stdexcept>
 
 namespace zonal::gpu {
@@ -93,18 +92,6 @@ Words read_shader(const std::filesystem::path& file) {
     if (content.size() % sizeof(std::uint32_t) != 0)
         throw std::runtime_error(file.string() + ": no SPIR-V: its size is no multiple of 4 bytes");
     std::memcpy(words.data(), content.data(), content.size());
-    return words;
-}
-
-Words linked(const std::vector<Words>& modules) {
-    spvtools::Context context(SPV_ENV_UNIVERSAL_1_3);
-    Messages messages;
-    context.SetMessageConsumer(messages.consumer());
-    Words words;
-    messages.expect(spvtools::Link(context, modules, &words) == SPV_SUCCESS, "spirv-link");
-    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
-    tools.SetMessageConsumer(messages.consumer());
-    messages.expect(tools.Validate(words), "the linked module is not valid");
     return words;
 }
 

@@ -20,7 +20,5 @@ Words assembled(const std::string& text);
 Words compiled(const std::string& glsl);
 /// A compute module of a file: SPIR-V as text (.spvasm) or binary (.spv), or GLSL (.comp).
 Words read_shader(const std::filesystem::path& file);
-/// What spirv-link makes of modules; complete and valid for Vulkan 1.1.
-Words linked(const std::vector<Words>& modules);
 
 }  // namespace zonal::gpu

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <algorithm>
+#include <filesystem>
+#include <vector>
 
 #include "gpu/emitted_shaders.hpp"
 #include "gpu/shader_modules.hpp"
@@ -11,24 +13,13 @@ namespace zonal::gpu {
 
 namespace {
 
-std::string file_of(int order) { return read_text(glsl_folder() / (order_stem(order) + ".glsl")); }
-
-/// The text of every function of this name: a printed function ends at the first brace at a line's start.
-std::string functions_named(const std::string& file, const std::string& name) {
-    std::string text;
-    const std::string begin = fmt::format("void {}(", name), end = "\n}\n";
-    for (std::size_t at = file.find(begin); at != std::string::npos; at = file.find(begin, at + 1))
-        text += file.substr(at, file.find(end, at) + end.size() - at);
-    return text;
+std::string file_of(int order, const std::string& kernel) {
+    return read_text(glsl_folder() / order_stem(order) / (kernel + ".glsl"));
 }
 
 }  // namespace
 
 std::string compute_shader(int order, const ReferenceKernel& kernel, int channels) {
-    const std::string file = file_of(order), name = fmt::format("zonal_order{}_{}", order, kernel.name);
-    const std::string function = functions_named(file, name);
-    if (function.empty()) throw std::runtime_error(fmt::format("order {}: no function {}", order, name));
-
     const std::string type = channels == 3 && kernel.has_signal() ? "vec3" : "float";
     std::string declarations, loads, arguments;
     if (kernel.rotation_size > 0) {
@@ -53,19 +44,28 @@ std::string compute_shader(int order, const ReferenceKernel& kernel, int channel
         stores += fmt::format("        outputs[(int(vector) * {} + i) * {} + {}] = o[i]{};\n",
                               kernel.output_size, channels, c, type == "vec3" ? fmt::format("[{}]", c) : "");
     stores += "    }\n";
-    return "#version 450\n" + functions_named(file, name + "_channels") + function +
+    return "#version 450\n" + file_of(order, kernel.name) +
            "layout(local_size_x_id = 0) in;\n"
            "layout(push_constant) uniform Push { uint count; };\n" +
            declarations + "layout(std430, binding = 2) buffer Outputs { float outputs[]; };\n" +
            "void main() {\n"
            "    uint vector = gl_GlobalInvocationID.x;\n"
            "    if (vector >= count) return;\n" +
-           loads + fmt::format("    {} o[{}];\n    {}({}o);\n", type, kernel.output_size, name, arguments) +
+           loads +
+           fmt::format("    {} o[{}];\n    zonal_order{}_{}({}o);\n", type, kernel.output_size, order,
+                       kernel.name, arguments) +
            stores + "}\n";
 }
 
-std::string whole_file_shader(int order) {
-    return "#version 450\n" + file_of(order) + "layout(local_size_x = 64) in;\nvoid main() {}\n";
+std::string shader_of_all_files(int order) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(glsl_folder() / order_stem(order)))
+        files.push_back(entry.path());
+    std::ranges::sort(files);
+    std::string text = "#version 450\n";
+    for (const auto& file : files) text += read_text(file);
+    for (const auto& file : files) text += read_text(file);
+    return text + "layout(local_size_x = 64) in;\nvoid main() {}\n";
 }
 
 }  // namespace zonal::gpu

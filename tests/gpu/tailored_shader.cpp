@@ -4,7 +4,7 @@
 
 namespace zonal::gpu {
 
-std::string tailored_compute_shader(int order, const std::string& kernels, const std::string& tailored) {
+std::string tailored_compute_shader(int order, const std::string& functions) {
     constexpr const char* kEntry = R"(
 layout(local_size_x_id = 0) in;
 layout(std430, set = 0, binding = 0) readonly buffer Rotations {{ float rotations[]; }};
@@ -36,7 +36,7 @@ void main() {{
     }}
 }}
 )";
-    return "#version 450\n" + kernels + tailored +
+    return "#version 450\n" + functions +
            fmt::format(fmt::runtime(kEntry), fmt::arg("order", order), fmt::arg("layers", order - 2),
                        fmt::arg("size", order * order), fmt::arg("floats", 3 * order * order));
 }

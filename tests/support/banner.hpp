@@ -4,9 +4,6 @@
 
 namespace zonal::banner {
 
-/// The text of an order's committed header.
-std::string header_text(int order);
-
 /// What the banner publishes for a kernel.
 struct Bound {
     double float_bound = 0;

@@ -1,6 +1,6 @@
 // Shades a ball, matte under a mirroring glaze, by an SH light that every fragment turns for itself.
 //
-// Compiled behind `#version 300 es`, `precision highp float;`, the text of generated/glsl/orderNN.glsl and
+// Compiled behind `#version 300 es`, `precision highp float;`, the text of generated/glsl/orderNN/rotate.glsl and
 //     #define ORDER           3 or 4
 //     #define ROTATE          zonal_orderN_rotate
 //     #define SHOWS_PROBE     1: fragment i writes coefficient i of the turned light; 0: the ball

@@ -120,7 +120,7 @@ export async function litSphere(sceneUrl, parent) {
   const scene = JSON.parse(await text(sceneUrl));
   const shading = await text("lit_sphere.frag");
   const kernels = {};
-  for (const order of scene.orders) kernels[order] = await text(`../../generated/glsl/order0${order}.glsl`);
+  for (const order of scene.orders) kernels[order] = await text(`../../generated/glsl/order0${order}/rotate.glsl`);
 
   const gl = context(scene.size);
   if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("EXT_color_buffer_float is missing");
@@ -138,7 +138,7 @@ precision highp float;
 ${kernels[order]}
 #line 1 2
 ${shading}`;
-    const files = `(1: order0${order}.glsl, 2: lit_sphere.frag)`;
+    const files = `(1: order0${order}/rotate.glsl, 2: lit_sphere.frag)`;
     const probe = link(gl, source(1), `order ${order}, turned light ${files}`);
     const ball = link(gl, source(0), `order ${order}, ball ${files}`);
     const probeTarget = floatTarget(gl, order * order, 1);

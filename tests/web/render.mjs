@@ -1,6 +1,6 @@
 // Renders lit_sphere.html in headless Chromium.
 //   node render.mjs CHROMIUM SOURCES SCENE.json OUT_FOLDER
-// Compiles besides every file of generated/glsl that is for ES 3.00: orderNN.glsl, not orderNN_tailored.glsl.
+// Compiles besides every file of generated/glsl that is for ES 3.00: all but rotate_tailored.glsl.
 // Writes OUT_FOLDER/values.f32 (little-endian floats, laid out as lit_sphere.mjs says) and OUT_FOLDER/lit_sphere.png.
 
 import { readdirSync, writeFileSync } from "node:fs";
@@ -11,8 +11,8 @@ run(async () => {
   const [chromium, sources, scene, out] = process.argv.slice(2);
   if (!out) throw new Error("wanted: node render.mjs CHROMIUM SOURCES SCENE.json OUT_FOLDER");
   await withPage(chromium, sources, { "/scene.json": scene }, async (page) => {
-    const kernels = readdirSync(path.join(sources, "generated/glsl"))
-      .filter((name) => /^order\d+\.glsl$/.test(name))
+    const kernels = readdirSync(path.join(sources, "generated/glsl"), { recursive: true })
+      .filter((name) => name.endsWith(".glsl") && !name.endsWith("rotate_tailored.glsl"))
       .map((name) => `/generated/glsl/${name}`);
     await page.setViewportSize({ width: 1280, height: 800 });
     await page.goto("https://zonal.test/tests/web/lit_sphere.html?scene=/scene.json");

@@ -73,7 +73,7 @@ using Executor = std::function<void(std::size_t count,
 /// Errors    : zonal::Error when the order is not compiled in, the layout contradicts itself, a span is too
 ///             short for the layout, or `in`, `out` and `rotations` overlap otherwise than as said; `out` is
 ///             then untouched.
-/// Accuracy  : as `rotate`, see zonal/orderNN.hpp; results may differ from it in the last bits, and from one
+/// Accuracy  : as `rotate`, see zonal/orderNN/rotate.hpp; results may differ from it in the last bits, and from one
 ///             processor to another.
 /// executor  : none: the calling thread does all.
 /// Cost      : no allocation; SIMD packs of 4 to 16 vectors chosen for the processor at run time.

@@ -11,7 +11,7 @@
 namespace zonal {
 
 /// Tables for signal-tailored rotation on a GPU: a static signal, looked up where the lobes come from instead
-/// of being turned. `zonal_orderN_rotate_tailored` of the generated shader orderNN_tailored.glsl reads them.
+/// of being turned. `zonal_orderN_rotate_tailored` of the generated shader orderNN/rotate_tailored.glsl reads them.
 ///
 /// An array of cube maps with mip levels holds the expansions f_l(w) = sum_m f_lm y_lm(w) of bands 2 …
 /// order-1: layer l - 2 is band l, its texels (red, green, blue, 0). Bands 0 and 1 need no table: the shader

@@ -47,23 +47,22 @@ std::vector<std::string> usual_kernels() {
 }
 
 fs::path file_of(const Options& options, int order, const std::string& kernel) {
-    if (kernel == kTailored) return fs::path(options.glsl) / fmt::format("order{:02}_tailored.glsl", order);
-    return fs::path(options.spirv) / fmt::format("order{:02}_{}.spvasm", order, kernel);
+    if (kernel == kTailored)
+        return fs::path(options.glsl) / fmt::format("order{:02}/rotate_tailored.glsl", order);
+    return fs::path(options.spirv) / fmt::format("order{:02}/{}.spvasm", order, kernel);
 }
 
 std::vector<std::uint32_t> read_kernel(const Options& options, int order, const std::string& kernel) {
     const fs::path file = file_of(options, order, kernel);
     if (!fs::exists(file))
-        throw std::runtime_error(fmt::format(
-            "{}: not found, wanted kernel {} of order {}; `zonal-gen emit --order {} --language {} --out {}` "
-            "writes the kernels that the order has",
-            file.string(), kernel, order, order, kernel == kTailored ? "glsl" : "spirv",
-            file.parent_path().string()));
+        throw std::runtime_error(
+            fmt::format("{}: not found, wanted kernel {} of order {}; `zonal-gen emit --order {} --language "
+                        "{} --twins --out {}` "
+                        "writes the kernels that the order has",
+                        file.string(), kernel, order, order, kernel == kTailored ? "glsl" : "spirv",
+                        file.parent_path().string()));
     if (kernel != kTailored) return zonal::gpu::read_shader(file);
-    const std::string functions =
-        zonal::gpu::read_text(fs::path(options.glsl) / fmt::format("order{:02}.glsl", order));
-    return zonal::gpu::compiled(
-        zonal::gpu::tailored_compute_shader(order, functions, zonal::gpu::read_text(file)));
+    return zonal::gpu::compiled(zonal::gpu::tailored_compute_shader(order, zonal::gpu::read_text(file)));
 }
 
 /// What was asked for, or the usual kernels of the orders that the folder has.
@@ -83,8 +82,8 @@ std::vector<Shader> collect(const Options& options) {
             {fs::path(module).filename().string(), std::nullopt, zonal::gpu::read_shader(module)});
     if (shaders.empty())
         throw std::runtime_error(
-            fmt::format("found no shader in {}, wanted orderNN_KERNEL.spvasm; `zonal-gen "
-                        "emit --order N --language spirv --out {}` writes them",
+            fmt::format("found no shader in {}, wanted orderNN/KERNEL.spvasm; `zonal-gen "
+                        "emit --order N --language spirv --twins --out {}` writes them",
                         options.spirv, options.spirv));
     return shaders;
 }
@@ -155,9 +154,11 @@ int main(int argc, char** argv) try {
         ->check(CLI::IsMember({"polaris10", "vega10", "vega20", "raven", "renoir", "navi10", "navi14",
                                "navi21", "navi22", "navi23", "navi24", "gfx1100", "gfx1102"}))
         ->capture_default_str();
-    app.add_option("--spirv", options.spirv, "folder of orderNN_KERNEL.spvasm")->capture_default_str();
-    app.add_option("--glsl", options.glsl, "folder of orderNN.glsl and orderNN_tailored.glsl")
+    app.add_option("--spirv", options.spirv,
+                   "folder of orderNN/KERNEL.spvasm; those of three channels (_rgb) are "
+                   "written by zonal-gen emit --twins")
         ->capture_default_str();
+    app.add_option("--glsl", options.glsl, "folder of orderNN/rotate_tailored.glsl")->capture_default_str();
     app.add_option(
            "--module", options.modules,
            "a compute shader of your own, .spv, .spvasm or .comp: storage buffers at bindings 0, 1, 2 "

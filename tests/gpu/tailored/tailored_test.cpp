@@ -62,14 +62,6 @@ std::vector<Matrix> rotations() {
     return result;
 }
 
-/// The text of orderNN.glsl or orderNN_tailored.glsl.
-std::string glsl_file(int order, const char* suffix) {
-    return zonal::gpu::read_text(zonal::gpu::glsl_folder() /
-                                 (zonal::gpu::order_stem(order) + suffix + ".glsl"));
-}
-
-std::string functions(int order) { return glsl_file(order, "") + glsl_file(order, "_tailored"); }
-
 /// A shader and the floats that it reads and writes for each invocation.
 struct Work {
     int input_size = 0, output_size = 0;
@@ -78,13 +70,13 @@ struct Work {
 
 Work rotate_tailored(int order) {
     return {9, 3 * order * order,
-            zonal::gpu::tailored_compute_shader(order, glsl_file(order, ""), glsl_file(order, "_tailored"))};
+            zonal::gpu::tailored_compute_shader(order, zonal::gpu::tailored_text(order))};
 }
 
 /// The first layer's value in a direction.
 Work look_up(int order) {
     return {3, 3,
-            "#version 450\n" + functions(order) +
+            "#version 450\n" + zonal::gpu::tailored_text(order) +
                 fmt::format(R"(
 layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push {{ uint count; }};
@@ -250,7 +242,7 @@ void main() {{
     color = vec4(o[{size} - 1], 1.0);
 }}
 )",
-                    fmt::arg("functions", functions(order)), fmt::arg("order", order),
+                    fmt::arg("functions", zonal::gpu::tailored_text(order)), fmt::arg("order", order),
                     fmt::arg("size", order * order), fmt::arg("layers", order - zonal::kFirstTableBand));
     glslang::InitializeProcess();
     {
