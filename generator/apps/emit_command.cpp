@@ -12,9 +12,10 @@
 #include "apps/emit_jobs.hpp"
 #include "bounds/published.hpp"
 #include "emit/cpp.hpp"
+#include "emit/dialects.hpp"
 #include "emit/file.hpp"
-#include "emit/glsl.hpp"
 #include "emit/glsl_tailored.hpp"
+#include "emit/js.hpp"
 #include "emit/spirv.hpp"
 #include "emit/spirv_tools.hpp"
 #include "emit/text.hpp"
@@ -76,7 +77,7 @@ emit::TailoredRotation tailored_rotation(const kernels::LobeSet& lobes) {
 }
 
 Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
-    Files files = emit::print_glsl(unit);
+    Files files = emit::print_shader_functions(unit, emit::kGlsl);
     if (order.tables.shared && unit.wants(emit::kTailoredName))
         files.push_back(emit::print_glsl_tailored(
             unit, tailored_rotation(kernels::LobeSet::shared(order.tables.shared->table))));
@@ -92,6 +93,10 @@ const std::map<std::string, Language>& languages() {
                    const EmitOptions&) { return emit::print_cpp(unit); }},
         {"glsl", [](const emit::Unit& unit, const OrderKernels& order,
                     const EmitOptions&) { return glsl_files(unit, order); }},
+        {"hlsl", [](const emit::Unit& unit, const OrderKernels&,
+                    const EmitOptions&) { return emit::print_shader_functions(unit, emit::kHlsl); }},
+        {"js", [](const emit::Unit& unit, const OrderKernels&,
+                  const EmitOptions&) { return emit::print_js(unit); }},
         {"spirv", [](const emit::Unit& unit, const OrderKernels&,
                      const EmitOptions& options) { return spirv_files(unit, options); }},
         {"wgsl", [](const emit::Unit& unit, const OrderKernels&,
@@ -228,7 +233,7 @@ void add_emit_command(CLI::App& app) {
     CLI::Option* order = command->add_option("--order", options->order, "number of bands");
     command->add_option("--orders", options->orders, "several orders, such as 3-6,8")->excludes(order);
     CLI::Option_group* language = command->add_option_group("language", "what to write");
-    language->add_option("--language", options->language, "cpp, glsl, spirv or wgsl");
+    language->add_option("--language", options->language, "cpp, glsl, hlsl, js, spirv or wgsl");
     language->add_option("--languages", options->languages,
                          "several languages, such as cpp,glsl; one may have orders of its own, joined by +: "
                          "cpp:2-10,glsl:3-6+8");

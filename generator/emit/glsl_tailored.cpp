@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-#include "emit/glsl.hpp"
+#include "emit/dialects.hpp"
 #include "emit/text.hpp"
 #include "graph/counts.hpp"
 #include "graph/passes.hpp"
@@ -85,7 +85,7 @@ std::string print_bands(const Unit& unit, const TailoredRotation& rotation) {
         for (std::size_t d = 0; d < band.lobes.size(); ++d)
             text += fmt::format("    samples[{}] = textureLod(bands, vec4(w{}, {}.0), levels[{}]).rgb;\n",
                                 band.first_sample + static_cast<int>(d), band.lobes[d], layer, layer);
-        text += print_glsl_statements(resampled_band(unit, band), true, 4);
+        text += print_shader_statements(resampled_band(unit, band), kGlsl, true, 4);
         ++layer;
     }
     return text;
@@ -126,12 +126,12 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
 
 File print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation) {
     const auto once = [&](const char* name, const std::string& text) {
-        return glsl_once(fmt::format("{}_{}", unit.name, name), text);
+        return shader_once(fmt::format("{}_{}", unit.name, name), text);
     };
     return {fmt::format("{}/{}.glsl", unit.folder, kTailoredName),
             banner(unit, rotation) + "//\n// For GLSL 4.50 and ES 3.20.\n" +
-                print_glsl_kernel(unit, graph::kernel_named(unit.kernels, "lobes")) +
-                print_glsl_kernel(unit, rotation.rotate_low) +
+                print_shader_kernel(unit, graph::kernel_named(unit.kernels, "lobes"), kGlsl) +
+                print_shader_kernel(unit, rotation.rotate_low, kGlsl) +
                 once("face_direction", print_face_direction(unit)) +
                 once(kTailoredName, print_rotation(unit, rotation))};
 }

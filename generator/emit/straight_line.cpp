@@ -24,37 +24,40 @@ class StatementPrinter {
     StatementPrinter(const Kernel& kernel, const Syntax& syntax, int indentation)
         : kernel_(kernel), syntax_(syntax), names_(node_names(kernel)), indentation_(indentation, ' ') {}
 
-    std::string print() {
-        load_rotation();
-        for (const graph::Statement& statement : graph::schedule(kernel_)) {
-            const Node& node = kernel_.graph[statement.node];
-            append(statement.is_store
-                       ? fmt::format("{}[{}] = {};", kernel_.output.name, statement.index,
-                                     operand(statement.node))
-                       : syntax_.declare(node.kind, names_.at(statement.node), expression(node)));
-        }
-        return body_;
-    }
-
-  private:
-    void append(const std::string& statement) { body_ += indentation_ + statement + "\n"; }
-
     /// The rotation is read once, before anything is written.
     void load_rotation() {
         for (Id id = 0; id < kernel_.graph.size(); ++id) {
             const Node& node = kernel_.graph[id];
             if (node.op == Op::input && node.kind == Kind::rotation)
                 append(syntax_.declare(Kind::rotation, names_.at(id),
-                                       fmt::format("{}[{}]", kernel_.inputs[node.array].name, node.index)));
+                                       syntax_.element(kernel_.inputs[node.array], node.index)));
         }
     }
+
+    /// Those that `is_printed` says of a value's kind; a store is of the output's.
+    template <class Choice>
+    void print(Choice is_printed) {
+        for (const graph::Statement& statement : graph::schedule(kernel_)) {
+            const Node& node = kernel_.graph[statement.node];
+            if (!is_printed(statement.is_store ? kernel_.output.kind : node.kind)) continue;
+            append(statement.is_store
+                       ? fmt::format("{} = {};", syntax_.element(kernel_.output, statement.index),
+                                     operand(statement.node))
+                       : syntax_.declare(node.kind, names_.at(statement.node), expression(node)));
+        }
+    }
+
+    const std::string& text() const { return body_; }
+
+  private:
+    void append(const std::string& statement) { body_ += indentation_ + statement + "\n"; }
 
     std::string operand(Id id, bool is_negated = false) const {
         const Node& node = kernel_.graph[id];
         const std::string sign = is_negated ? "-" : "";
         if (node.op == Op::constant) return syntax_.constant(is_negated ? -node.value : node.value);
         if (node.op == Op::input && node.kind == Kind::signal)
-            return fmt::format("{}{}[{}]", sign, kernel_.inputs[node.array].name, node.index);
+            return sign + syntax_.element(kernel_.inputs[node.array], node.index);
         return sign + names_.at(id);
     }
 
@@ -75,7 +78,7 @@ class StatementPrinter {
             case Op::divide:
                 return fmt::format("{} / {}", text(0), text(1));
             case Op::square_root:
-                return fmt::format("sqrt({})", text(0));
+                return syntax_.square_root(text(0));
             case Op::copy_sign:
                 return syntax_.copy_sign(kernel_.graph[node.operands[0]].value,
                                          kernel_.graph[node.operands[1]].value, text(2));
@@ -100,8 +103,24 @@ std::string product_and_sum(const std::string& a, const std::string& b, const st
                               : fmt::format("{} * {} + {}", a, b, c);
 }
 
+std::string Syntax::square_root(const std::string& a) const { return fmt::format("sqrt({})", a); }
+
+std::string Syntax::element(const graph::Array& array, int index) const {
+    return fmt::format("{}[{}]", array.name, index);
+}
+
 std::string print_statements(const Kernel& kernel, const Syntax& syntax, int indentation) {
-    return StatementPrinter(kernel, syntax, indentation).print();
+    StatementPrinter printer(kernel, syntax, indentation);
+    printer.load_rotation();
+    printer.print([](Kind) { return true; });
+    return printer.text();
+}
+
+std::string print_statements_of(Kind kind, const Kernel& kernel, const Syntax& syntax, int indentation) {
+    StatementPrinter printer(kernel, syntax, indentation);
+    if (kind == Kind::rotation) printer.load_rotation();
+    printer.print([&](Kind other) { return other == kind; });
+    return printer.text();
 }
 
 }  // namespace zonal::emit

@@ -172,6 +172,8 @@ Id Graph::copy_sign(const Number& size, const Number& size_in_float, Id sign) {
 
 void Graph::set_name(Id id, const std::string& name) {
     if (nodes_[id].name.empty()) nodes_[id].name = name;
+    // Users take the sign and compute with what it stands before.
+    if (nodes_[id].op == Op::negate) set_name(nodes_[id].operands[0], "minus_" + name);
 }
 
 void Graph::copy_labels(Id id, const Node& from) {

@@ -88,7 +88,7 @@ class Graph {
 
     /// Values made from here on belong to this part of the kernel.
     void set_scope(std::string scope) { scope_ = std::move(scope); }
-    /// Gives a value its meaning; the first name stays.
+    /// Gives a value its meaning, and with "minus_" what it is the negative of; the first name stays.
     void set_name(Id id, const std::string& name);
     /// Copies name and scope of another graph's node, for passes that rebuild a graph.
     void copy_labels(Id id, const Node& from);

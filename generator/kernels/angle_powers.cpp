@@ -7,6 +7,15 @@ namespace zonal::kernels {
 using graph::Number;
 using graph::Value;
 
+namespace {
+
+/// "cos_3alpha"
+std::string name_of(const char* function, int m, const std::string& angle) {
+    return fmt::format("{}_{}{}", function, m == 1 ? "" : std::to_string(m), angle);
+}
+
+}  // namespace
+
 AnglePowers::AnglePowers(graph::Kernel& kernel, std::string name, Value cosine, Value sine, PowerChain chain,
                          bool only_odd_above_2)
     : kernel_(kernel), name_(std::move(name)), chain_(chain), only_odd_above_2_(only_odd_above_2) {
@@ -28,7 +37,7 @@ Value AnglePowers::twice_cosine(int m) {
         return c + c;
     };
     const Value value = made();
-    kernel_.graph.set_name(value.id, fmt::format("{}_2c{}", name_, m));
+    kernel_.graph.set_name(value.id, name_of("twice_cos", m, name_));
     return twice_cosines_[m] = value;
 }
 
@@ -37,7 +46,7 @@ Value AnglePowers::twice_sine(int m) {
     if (known != twice_sines_.end()) return known->second;
     kernel_.graph.set_scope(name_);
     const Value value = sine(m) + sine(m);
-    kernel_.graph.set_name(value.id, fmt::format("{}_2s{}", name_, m));
+    kernel_.graph.set_name(value.id, name_of("twice_sin", m, name_));
     return twice_sines_[m] = value;
 }
 
@@ -50,7 +59,7 @@ Value AnglePowers::step_to(int m) {
     if (!step_to_even_) {
         kernel_.graph.set_scope(name_);
         step_to_even_ = norm_defect_ * d + d;
-        kernel_.graph.set_name(step_to_even_->id, fmt::format("{}_2c1_over_n", name_));
+        kernel_.graph.set_name(step_to_even_->id, name_of("twice_cos", 1, name_) + "_over_n");
     }
     return *step_to_even_;
 }
@@ -59,8 +68,8 @@ AnglePowers::Power AnglePowers::power(int m) {
     const auto known = powers_.find(m);
     if (known != powers_.end()) return known->second;
     const Power made = make(m);
-    kernel_.graph.set_name(made.cosine.id, fmt::format("{}_c{}", name_, m));
-    kernel_.graph.set_name(made.sine.id, fmt::format("{}_s{}", name_, m));
+    kernel_.graph.set_name(made.cosine.id, name_of("cos", m, name_));
+    kernel_.graph.set_name(made.sine.id, name_of("sin", m, name_));
     return powers_[m] = made;
 }
 

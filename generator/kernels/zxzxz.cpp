@@ -383,41 +383,42 @@ EulerScalars euler_scalars(graph::Kernel& kernel, const Matrix3& rows, int order
     // that is flushed to zero must be nothing beside that of the shift: in float it is up to 1.2e-38, 1.2e-8
     // of it. The direction of (R02, R12) is wrong by the shift at most, which must be nothing beside
     // rounding.
-    const Value x = named(rows[0][2] + copysign(Number("1e-18"), Number("1e-15"), rows[0][2]), "x");
+    const Value x = named(rows[0][2] + copysign(Number("1e-18"), Number("1e-15"), rows[0][2]), "shifted_r02");
     const Value y = rows[1][2];
     const Value x_x = x * x;
-    const Value squared_sin_b = y * y + x_x;
-    Value sin_b = named(sqrt(squared_sin_b), "b_s1");
+    const Value squared_sin_b = named(y * y + x_x, "squared_sin_beta");
+    Value sin_b = named(sqrt(squared_sin_b), "norm_r02_r12");
     // Two divisions, not products with one inverse: its rounding would be an error of the norm, which grows
     // in the powers.
-    const Value cos_a = named(x / sin_b, "a_c1");
-    const Value sin_a = named(y / sin_b, "a_s1");
+    const Value cos_a = named(x / sin_b, "cos_alpha");
+    const Value sin_a = named(y / sin_b, "sin_alpha");
     // Rz(-α) R = Ry(β) Rz(γ), whose middle row is (sin γ, cos γ, 0).
     const Value s0 = sin_a * rows[0][0];
-    const Value sin_g = named(cos_a * rows[1][0] - s0, "g_s1");
+    const Value sin_g = named(cos_a * rows[1][0] - s0, "sin_gamma");
     const Value s1 = sin_a * rows[0][1];
-    const Value cos_g = named(cos_a * rows[1][1] - s1, "g_c1");
+    const Value cos_g = named(cos_a * rows[1][1] - s1, "cos_gamma");
     Value cos_b = rows[2][2];
     // A norm that is not 1, by noise in R or by rounding, would grow in the powers. The defects 1 - c² - s²
     // are rounded at their own size and not at that of 1. Powers make do with the defect; β, whose half
     // angles make reflections, takes a Newton step.
     const Value one{&graph, graph.constant(1)};
     const Value one_b = one - cos_b * cos_b;
-    const Value half_defect_b = Number(0.5) * (one_b - squared_sin_b);
-    sin_b = named(half_defect_b * sin_b + sin_b, "b_s1");
-    cos_b = named(half_defect_b * cos_b + cos_b, "b_c1");
+    const Value half_defect_b = named(Number(0.5) * (one_b - squared_sin_b), "half_beta_defect");
+    sin_b = named(half_defect_b * sin_b + sin_b, "sin_beta");
+    cos_b = named(half_defect_b * cos_b + cos_b, "cos_beta");
     const auto defect_of = [&](Value cosine, Value sine, const char* name) {
         graph.set_scope("euler");
         const Value one_c = one - cosine * cosine;
         return named(one_c - sine * sine, name);
     };
     const PowerChain chain = order <= kLastOrderOfRecurrence ? PowerChain::recurrence : PowerChain::product;
-    EulerScalars scalars{order, AnglePowers(kernel, "a", cos_a, sin_a, chain, false),
-                         AnglePowers(kernel, "b", cos_b, sin_b, chain, true),
-                         AnglePowers(kernel, "g", cos_g, sin_g, chain, false)};
-    scalars.gamma.set_norm_defect(defect_of(cos_g, sin_g, "g_defect"));
+    EulerScalars scalars{order, AnglePowers(kernel, "alpha", cos_a, sin_a, chain, false),
+                         AnglePowers(kernel, "beta", cos_b, sin_b, chain, true),
+                         AnglePowers(kernel, "gamma", cos_g, sin_g, chain, false)};
+    scalars.gamma.set_norm_defect(defect_of(cos_g, sin_g, "gamma_defect"));
     // α is normalised but for rounding, which is what errors are made of: three instructions halve them.
-    if (order >= kFirstOrderOfExactAlpha) scalars.alpha.set_norm_defect(defect_of(cos_a, sin_a, "a_defect"));
+    if (order >= kFirstOrderOfExactAlpha)
+        scalars.alpha.set_norm_defect(defect_of(cos_a, sin_a, "alpha_defect"));
     return scalars;
 }
 
