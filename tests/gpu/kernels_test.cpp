@@ -134,6 +134,23 @@ TEST_P(Kernels, glsl_functions_on_vec3_are_within_bounds_of_cpp) {
             expect_within_bounds("GLSL vec3", kernel, compiled(compute_shader(order(), kernel, 3)), 3);
 }
 
+/// HLSL is committed for these.
+class HlslKernels : public Kernels {};
+
+TEST_P(HlslKernels, functions_are_within_bounds_of_cpp) {
+    EXPECT_NO_THROW(compiled(shader_of_all_files(order(), ShaderLanguage::hlsl), ShaderLanguage::hlsl));
+    for (const ReferenceKernel& kernel : reference_kernels(order()))
+        for (const int channels : {1, 3})
+            if (channels == 1 || kernel.has_signal())
+                expect_within_bounds(fmt::format("HLSL, {} channels", channels), kernel,
+                                     compiled(compute_shader(order(), kernel, channels, ShaderLanguage::hlsl),
+                                              ShaderLanguage::hlsl),
+                                     channels);
+}
+
+INSTANTIATE_TEST_SUITE_P(orders, HlslKernels, testing::Values(3, 4, 5, 6),
+                         [](const auto& order) { return fmt::format("order_{}", order.param); });
+
 INSTANTIATE_TEST_SUITE_P(orders, Kernels, testing::ValuesIn(reference_orders()),
                          [](const auto& order) { return fmt::format("order_{}", order.param); });
 

@@ -57,21 +57,27 @@ Words assembled(const std::string& text) {
     return words;
 }
 
-Words compiled(const std::string& glsl) {
+Words compiled(const std::string& source, ShaderLanguage language) {
     static const Glslang once;
     glslang::TShader shader(EShLangCompute);
-    const char* text = glsl.c_str();
+    const char* text = source.c_str();
+    const bool is_hlsl = language == ShaderLanguage::hlsl;
     shader.setStrings(&text, 1);
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+    shader.setEntryPoint("main");
+    shader.setEnvInput(is_hlsl ? glslang::EShSourceHlsl : glslang::EShSourceGlsl, EShLangCompute,
+                       glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    const auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+    const auto rules =
+        static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | (is_hlsl ? EShMsgReadHlsl : 0));
     if (!shader.parse(GetDefaultResources(), 450, false, rules))
-        throw std::runtime_error(fmt::format("GLSL cannot be compiled: {}", shader.getInfoLog()));
+        throw std::runtime_error(
+            fmt::format("{} cannot be compiled: {}", is_hlsl ? "HLSL" : "GLSL", shader.getInfoLog()));
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(rules))
-        throw std::runtime_error(fmt::format("GLSL cannot be linked: {}", program.getInfoLog()));
+        throw std::runtime_error(
+            fmt::format("{} cannot be linked: {}", is_hlsl ? "HLSL" : "GLSL", program.getInfoLog()));
     Words words;
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words);
     return words;

@@ -16,8 +16,9 @@ std::string read_text(const std::filesystem::path& file);
 
 /// SPIR-V 1.3 from its text, not validated.
 Words assembled(const std::string& text);
-/// A compute shader of GLSL for Vulkan 1.1, by glslang.
-Words compiled(const std::string& glsl);
+enum class ShaderLanguage { glsl, hlsl };
+/// A compute shader for Vulkan 1.1, by glslang.
+Words compiled(const std::string& text, ShaderLanguage language = ShaderLanguage::glsl);
 /// A compute module of a file: SPIR-V as text (.spvasm) or binary (.spv), or GLSL (.comp).
 Words read_shader(const std::filesystem::path& file);
 
