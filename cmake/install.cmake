@@ -29,8 +29,8 @@ endforeach()
 install(DIRECTORY "${ZONAL_GENERATED_DIR}/zonal" runtime/include/zonal
   "${PROJECT_BINARY_DIR}/runtime/include/zonal"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
-# Shaders as they are committed.
-install(DIRECTORY generated/glsl generated/spirv DESTINATION "${CMAKE_INSTALL_DATADIR}/zonal")
+# Other languages as they are committed.
+install(DIRECTORY generated/glsl generated/hlsl generated/js generated/spirv generated/wgsl DESTINATION "${CMAKE_INSTALL_DATADIR}/zonal")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # What static libraries are linked with has to be found by who links them; shared ones bring it.
@@ -39,8 +39,9 @@ if(BUILD_SHARED_LIBS)
   set(static_needs_packages OFF)
 endif()
 set(installed_tables "${CMAKE_INSTALL_DATADIR}/zonal/tables")
+set(installed_kernels "${CMAKE_INSTALL_DATADIR}/zonal")
 configure_package_config_file(cmake/zonal-config.cmake.in "${PROJECT_BINARY_DIR}/zonal-config.cmake"
-  INSTALL_DESTINATION "${package_folder}" PATH_VARS installed_tables)
+  INSTALL_DESTINATION "${package_folder}" PATH_VARS installed_tables installed_kernels)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/zonal-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/zonal-config.cmake" "${PROJECT_BINARY_DIR}/zonal-config-version.cmake"
   cmake/zonal_add_kernels.cmake cmake/zonal_tables.cmake DESTINATION "${package_folder}")

@@ -2,7 +2,7 @@
 #
 # Has zonal-gen write kernels of the given orders (2 to 20) when TARGET is built, and again when the program or a table
 # of the orders changes. KERNELS: these, such as rotate and blocks, and what they call; without it all. LANGUAGES: some
-# of cpp (the default), glsl, spirv, wgsl.
+# of cpp (the default), glsl, hlsl, js, spirv, wgsl.
 # C++: TARGET, and what links to it, can then include "zonal/orderNN.hpp" or, of KERNELS, "zonal/orderNN/NAME.hpp".
 # Others: the property ZONAL_KERNELS_FOLDER of TARGET names the folder that holds LANGUAGE/orderNN/NAME.*.
 # Needs zonal-gen: built in this tree (ZONAL_BUILD_GENERATOR=ON) or installed with the package zonal.
@@ -23,12 +23,14 @@ function(zonal_add_kernels target)
   endif()
   set(ending_cpp hpp)
   set(ending_glsl glsl)
+  set(ending_hlsl hlsl)
+  set(ending_js mjs)
   set(ending_spirv spvasm)
   set(ending_wgsl wgsl)
   foreach(language IN LISTS arg_LANGUAGES)
     if(NOT DEFINED ending_${language})
-      message(FATAL_ERROR "${call}: LANGUAGES: found '${language}', wanted some of cpp, glsl, spirv, wgsl; "
-        "correct the call")
+      message(FATAL_ERROR "${call}: LANGUAGES: found '${language}', wanted some of cpp, glsl, hlsl, js, spirv, "
+        "wgsl; correct the call")
     endif()
   endforeach()
   if("${arg_ORDERS}" STREQUAL "")

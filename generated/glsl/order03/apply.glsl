@@ -35,7 +35,7 @@ void zonal_order3_apply(highp float scalars[34], highp float f[9], out highp flo
     highp float d2_0_0 = scalars[10];
     highp float d2_0_2 = scalars[11];
     highp float d2_0_3 = scalars[12];
-    highp float d2_1 = scalars[13];
+    highp float minus_d2_0_4 = scalars[13];
     highp float d2_1_1 = scalars[14];
     highp float d2_1_0 = scalars[15];
     highp float d2_1_2 = scalars[16];
@@ -55,7 +55,7 @@ void zonal_order3_apply(highp float scalars[34], highp float f[9], out highp flo
     highp float d2_4_0 = scalars[30];
     highp float d2_4_2 = scalars[31];
     highp float d2_4_3 = scalars[32];
-    highp float d2_2 = scalars[33];
+    highp float minus_d2_4_4 = scalars[33];
     o[0] = f[0];
     highp float b1_1 = r11 * f[1];
     highp float b1_2 = r10 * f[3] + b1_1;
@@ -73,7 +73,7 @@ void zonal_order3_apply(highp float scalars[34], highp float f[9], out highp flo
     highp float b2_2 = d2_0_0 * f[4] + b2_1;
     highp float b2_3 = d2_0_2 * f[6] + b2_2;
     highp float b2_4 = d2_0_3 * f[7] + b2_3;
-    highp float b2_5 = -d2_1 * f[8] + b2_4;
+    highp float b2_5 = -minus_d2_0_4 * f[8] + b2_4;
     highp float b2_6 = d2_1_1 * f[5];
     highp float b2_7 = d2_1_0 * f[4] + b2_6;
     highp float b2_8 = d2_1_2 * f[6] + b2_7;
@@ -93,7 +93,7 @@ void zonal_order3_apply(highp float scalars[34], highp float f[9], out highp flo
     highp float b2_22 = d2_4_0 * f[4] + b2_21;
     highp float b2_23 = d2_4_2 * f[6] + b2_22;
     highp float b2_24 = d2_4_3 * f[7] + b2_23;
-    highp float b2_25 = -d2_2 * f[8] + b2_24;
+    highp float b2_25 = -minus_d2_4_4 * f[8] + b2_24;
     o[4] = b2_5;
     o[5] = b2_10;
     o[6] = b2_15;
@@ -114,7 +114,7 @@ void zonal_order3_apply(highp float scalars[34], highp vec3 f[9], out highp vec3
     highp float d2_0_0 = scalars[10];
     highp float d2_0_2 = scalars[11];
     highp float d2_0_3 = scalars[12];
-    highp float d2_1 = scalars[13];
+    highp float minus_d2_0_4 = scalars[13];
     highp float d2_1_1 = scalars[14];
     highp float d2_1_0 = scalars[15];
     highp float d2_1_2 = scalars[16];
@@ -134,7 +134,7 @@ void zonal_order3_apply(highp float scalars[34], highp vec3 f[9], out highp vec3
     highp float d2_4_0 = scalars[30];
     highp float d2_4_2 = scalars[31];
     highp float d2_4_3 = scalars[32];
-    highp float d2_2 = scalars[33];
+    highp float minus_d2_4_4 = scalars[33];
     o[0] = f[0];
     highp vec3 b1_1 = r11 * f[1];
     highp vec3 b1_2 = r10 * f[3] + b1_1;
@@ -152,7 +152,7 @@ void zonal_order3_apply(highp float scalars[34], highp vec3 f[9], out highp vec3
     highp vec3 b2_2 = d2_0_0 * f[4] + b2_1;
     highp vec3 b2_3 = d2_0_2 * f[6] + b2_2;
     highp vec3 b2_4 = d2_0_3 * f[7] + b2_3;
-    highp vec3 b2_5 = -d2_1 * f[8] + b2_4;
+    highp vec3 b2_5 = -minus_d2_0_4 * f[8] + b2_4;
     highp vec3 b2_6 = d2_1_1 * f[5];
     highp vec3 b2_7 = d2_1_0 * f[4] + b2_6;
     highp vec3 b2_8 = d2_1_2 * f[6] + b2_7;
@@ -172,7 +172,7 @@ void zonal_order3_apply(highp float scalars[34], highp vec3 f[9], out highp vec3
     highp vec3 b2_22 = d2_4_0 * f[4] + b2_21;
     highp vec3 b2_23 = d2_4_2 * f[6] + b2_22;
     highp vec3 b2_24 = d2_4_3 * f[7] + b2_23;
-    highp vec3 b2_25 = -d2_2 * f[8] + b2_24;
+    highp vec3 b2_25 = -minus_d2_4_4 * f[8] + b2_24;
     o[4] = b2_5;
     o[5] = b2_10;
     o[6] = b2_15;

@@ -109,13 +109,13 @@ void zonal_order3_blocks(highp float R[9], out highp float dense[35]) {
     highp float d2_46 = r10 * r10;
     highp float d2_47 = r11 * r11 - d2_46;
     highp float d2_48 = d2_45 - d2_47;
-    highp float d2_49 = -0.5 * d2_10;
-    highp float d2_50 = -0.5 * d2_48;
+    highp float minus_d2_0_4 = -0.5 * d2_10;
+    highp float minus_d2_4_4 = -0.5 * d2_48;
     dense[10] = d2_0_0;
     dense[11] = d2_0_1;
     dense[12] = d2_0_2;
     dense[13] = d2_0_3;
-    dense[14] = d2_49;
+    dense[14] = minus_d2_0_4;
     dense[15] = d2_1_0;
     dense[16] = d2_1_1;
     dense[17] = d2_1_2;
@@ -135,6 +135,6 @@ void zonal_order3_blocks(highp float R[9], out highp float dense[35]) {
     dense[31] = d2_4_1;
     dense[32] = d2_4_2;
     dense[33] = d2_4_3;
-    dense[34] = d2_50;
+    dense[34] = minus_d2_4_4;
 }
 #endif

@@ -51,12 +51,12 @@ void zonal_order4_lobes(highp float R[9], out highp float directions[21]) {
     directions[9] = r02;
     directions[10] = r12;
     directions[11] = r22;
-    highp float d4_1 = -0.44721359 * d1_1 - d0_2;
-    highp float d4_2 = -0.44721359 * d1_2 - d0_4;
-    highp float d4_3 = -0.44721359 * d1_3 - d0_6;
-    directions[12] = d4_1;
-    directions[13] = d4_2;
-    directions[14] = d4_3;
+    highp float minus_x_d4 = -0.44721359 * d1_1 - d0_2;
+    highp float minus_y_d4 = -0.44721359 * d1_2 - d0_4;
+    highp float minus_z_d4 = -0.44721359 * d1_3 - d0_6;
+    directions[12] = minus_x_d4;
+    directions[13] = minus_y_d4;
+    directions[14] = minus_z_d4;
     highp float d5_1 = 0.5 * r01;
     highp float x_d5 = 0.866025388 * r00 + d5_1;
     highp float d5_2 = 0.5 * r11;
@@ -66,11 +66,11 @@ void zonal_order4_lobes(highp float R[9], out highp float directions[21]) {
     directions[15] = x_d5;
     directions[16] = y_d5;
     directions[17] = z_d5;
-    highp float d6_1 = -0.866025388 * r00 + d5_1;
-    highp float d6_2 = -0.866025388 * r10 + d5_2;
-    highp float d6_3 = -0.866025388 * r20 + d5_3;
-    directions[18] = d6_1;
-    directions[19] = d6_2;
-    directions[20] = d6_3;
+    highp float minus_x_d6 = -0.866025388 * r00 + d5_1;
+    highp float minus_y_d6 = -0.866025388 * r10 + d5_2;
+    highp float minus_z_d6 = -0.866025388 * r20 + d5_3;
+    directions[18] = minus_x_d6;
+    directions[19] = minus_y_d6;
+    directions[20] = minus_z_d6;
 }
 #endif

@@ -94,12 +94,12 @@ void zonal_order4_per_band_lobes(highp float R[9], out highp float directions[48
     highp float d11_1 = 0.5 * r01;
     highp float d11_2 = 0.5 * r11;
     highp float d11_3 = 0.5 * r21;
-    highp float d11_4 = -0.866025388 * r00 + d11_1;
-    highp float d11_5 = -0.866025388 * r10 + d11_2;
-    highp float d11_6 = -0.866025388 * r20 + d11_3;
-    directions[33] = d11_4;
-    directions[34] = d11_5;
-    directions[35] = d11_6;
+    highp float minus_x_d11 = -0.866025388 * r00 + d11_1;
+    highp float minus_y_d11 = -0.866025388 * r10 + d11_2;
+    highp float minus_z_d11 = -0.866025388 * r20 + d11_3;
+    directions[33] = minus_x_d11;
+    directions[34] = minus_y_d11;
+    directions[35] = minus_z_d11;
     directions[36] = r02;
     directions[37] = r12;
     directions[38] = r22;
@@ -118,11 +118,11 @@ void zonal_order4_per_band_lobes(highp float R[9], out highp float directions[48
     directions[42] = x_d14;
     directions[43] = y_d14;
     directions[44] = z_d14;
-    highp float d15_1 = -0.44721359 * d14_1 - d9_2;
-    highp float d15_2 = -0.44721359 * d14_2 - d9_4;
-    highp float d15_3 = -0.44721359 * d14_3 - d9_6;
-    directions[45] = d15_1;
-    directions[46] = d15_2;
-    directions[47] = d15_3;
+    highp float minus_x_d15 = -0.44721359 * d14_1 - d9_2;
+    highp float minus_y_d15 = -0.44721359 * d14_2 - d9_4;
+    highp float minus_z_d15 = -0.44721359 * d14_3 - d9_6;
+    directions[45] = minus_x_d15;
+    directions[46] = minus_y_d15;
+    directions[47] = minus_z_d15;
 }
 #endif

@@ -47,7 +47,7 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const T d2_0_0 = scalars[10];
     const T d2_0_2 = scalars[11];
     const T d2_0_3 = scalars[12];
-    const T d2_1 = scalars[13];
+    const T minus_d2_0_4 = scalars[13];
     const T d2_1_1 = scalars[14];
     const T d2_1_0 = scalars[15];
     const T d2_1_2 = scalars[16];
@@ -67,7 +67,7 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const T d2_4_0 = scalars[30];
     const T d2_4_2 = scalars[31];
     const T d2_4_3 = scalars[32];
-    const T d2_2 = scalars[33];
+    const T minus_d2_4_4 = scalars[33];
     out[0] = f[0];
     const V b1_1 = r11 * f[1];
     const V b1_2 = fma(r10, f[3], b1_1);
@@ -85,7 +85,7 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const V b2_2 = fma(d2_0_0, f[4], b2_1);
     const V b2_3 = fma(d2_0_2, f[6], b2_2);
     const V b2_4 = fma(d2_0_3, f[7], b2_3);
-    const V b2_5 = fma(-d2_1, f[8], b2_4);
+    const V b2_5 = fma(-minus_d2_0_4, f[8], b2_4);
     const V b2_6 = d2_1_1 * f[5];
     const V b2_7 = fma(d2_1_0, f[4], b2_6);
     const V b2_8 = fma(d2_1_2, f[6], b2_7);
@@ -105,7 +105,7 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const V b2_22 = fma(d2_4_0, f[4], b2_21);
     const V b2_23 = fma(d2_4_2, f[6], b2_22);
     const V b2_24 = fma(d2_4_3, f[7], b2_23);
-    const V b2_25 = fma(-d2_2, f[8], b2_24);
+    const V b2_25 = fma(-minus_d2_4_4, f[8], b2_24);
     out[4] = b2_5;
     out[5] = b2_10;
     out[6] = b2_15;

@@ -122,13 +122,13 @@ ZONAL_HOST_DEVICE static void blocks(const T* R, T* dense) {
     const T d2_46 = r10 * r10;
     const T d2_47 = fma(r11, r11, -d2_46);
     const T d2_48 = d2_45 - d2_47;
-    const T d2_49 = T(-0.5) * d2_10;
-    const T d2_50 = T(-0.5) * d2_48;
+    const T minus_d2_0_4 = T(-0.5) * d2_10;
+    const T minus_d2_4_4 = T(-0.5) * d2_48;
     dense[10] = d2_0_0;
     dense[11] = d2_0_1;
     dense[12] = d2_0_2;
     dense[13] = d2_0_3;
-    dense[14] = d2_49;
+    dense[14] = minus_d2_0_4;
     dense[15] = d2_1_0;
     dense[16] = d2_1_1;
     dense[17] = d2_1_2;
@@ -148,7 +148,7 @@ ZONAL_HOST_DEVICE static void blocks(const T* R, T* dense) {
     dense[31] = d2_4_1;
     dense[32] = d2_4_2;
     dense[33] = d2_4_3;
-    dense[34] = d2_50;
+    dense[34] = minus_d2_4_4;
 }
 
 }  // namespace zonal::order3

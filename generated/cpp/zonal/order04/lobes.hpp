@@ -58,12 +58,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     directions[9] = r02;
     directions[10] = r12;
     directions[11] = r22;
-    const T d4_1 = fma(T(-0.44721359549995793), d1_1, -d0_2);
-    const T d4_2 = fma(T(-0.44721359549995793), d1_2, -d0_4);
-    const T d4_3 = fma(T(-0.44721359549995793), d1_3, -d0_6);
-    directions[12] = d4_1;
-    directions[13] = d4_2;
-    directions[14] = d4_3;
+    const T minus_x_d4 = fma(T(-0.44721359549995793), d1_1, -d0_2);
+    const T minus_y_d4 = fma(T(-0.44721359549995793), d1_2, -d0_4);
+    const T minus_z_d4 = fma(T(-0.44721359549995793), d1_3, -d0_6);
+    directions[12] = minus_x_d4;
+    directions[13] = minus_y_d4;
+    directions[14] = minus_z_d4;
     const T d5_1 = T(0.5) * r01;
     const T x_d5 = fma(T(0.8660254037844386), r00, d5_1);
     const T d5_2 = T(0.5) * r11;
@@ -73,12 +73,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     directions[15] = x_d5;
     directions[16] = y_d5;
     directions[17] = z_d5;
-    const T d6_1 = fma(T(-0.8660254037844386), r00, d5_1);
-    const T d6_2 = fma(T(-0.8660254037844386), r10, d5_2);
-    const T d6_3 = fma(T(-0.8660254037844386), r20, d5_3);
-    directions[18] = d6_1;
-    directions[19] = d6_2;
-    directions[20] = d6_3;
+    const T minus_x_d6 = fma(T(-0.8660254037844386), r00, d5_1);
+    const T minus_y_d6 = fma(T(-0.8660254037844386), r10, d5_2);
+    const T minus_z_d6 = fma(T(-0.8660254037844386), r20, d5_3);
+    directions[18] = minus_x_d6;
+    directions[19] = minus_y_d6;
+    directions[20] = minus_z_d6;
 }
 
 }  // namespace zonal::order4

@@ -101,12 +101,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     const T d11_1 = T(0.5) * r01;
     const T d11_2 = T(0.5) * r11;
     const T d11_3 = T(0.5) * r21;
-    const T d11_4 = fma(T(-0.8660254037844386), r00, d11_1);
-    const T d11_5 = fma(T(-0.8660254037844386), r10, d11_2);
-    const T d11_6 = fma(T(-0.8660254037844386), r20, d11_3);
-    directions[33] = d11_4;
-    directions[34] = d11_5;
-    directions[35] = d11_6;
+    const T minus_x_d11 = fma(T(-0.8660254037844386), r00, d11_1);
+    const T minus_y_d11 = fma(T(-0.8660254037844386), r10, d11_2);
+    const T minus_z_d11 = fma(T(-0.8660254037844386), r20, d11_3);
+    directions[33] = minus_x_d11;
+    directions[34] = minus_y_d11;
+    directions[35] = minus_z_d11;
     directions[36] = r02;
     directions[37] = r12;
     directions[38] = r22;
@@ -125,12 +125,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     directions[42] = x_d14;
     directions[43] = y_d14;
     directions[44] = z_d14;
-    const T d15_1 = fma(T(-0.44721359549995793), d14_1, -d9_2);
-    const T d15_2 = fma(T(-0.44721359549995793), d14_2, -d9_4);
-    const T d15_3 = fma(T(-0.44721359549995793), d14_3, -d9_6);
-    directions[45] = d15_1;
-    directions[46] = d15_2;
-    directions[47] = d15_3;
+    const T minus_x_d15 = fma(T(-0.44721359549995793), d14_1, -d9_2);
+    const T minus_y_d15 = fma(T(-0.44721359549995793), d14_2, -d9_4);
+    const T minus_z_d15 = fma(T(-0.44721359549995793), d14_3, -d9_6);
+    directions[45] = minus_x_d15;
+    directions[46] = minus_y_d15;
+    directions[47] = minus_z_d15;
 }
 
 }  // namespace zonal::order4::per_band

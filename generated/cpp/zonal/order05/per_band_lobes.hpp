@@ -102,12 +102,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     const T d11_1 = T(0.5) * r01;
     const T d11_2 = T(0.5) * r11;
     const T d11_3 = T(0.5) * r21;
-    const T d11_4 = fma(T(-0.8660254037844386), r00, d11_1);
-    const T d11_5 = fma(T(-0.8660254037844386), r10, d11_2);
-    const T d11_6 = fma(T(-0.8660254037844386), r20, d11_3);
-    directions[33] = d11_4;
-    directions[34] = d11_5;
-    directions[35] = d11_6;
+    const T minus_x_d11 = fma(T(-0.8660254037844386), r00, d11_1);
+    const T minus_y_d11 = fma(T(-0.8660254037844386), r10, d11_2);
+    const T minus_z_d11 = fma(T(-0.8660254037844386), r20, d11_3);
+    directions[33] = minus_x_d11;
+    directions[34] = minus_y_d11;
+    directions[35] = minus_z_d11;
     directions[36] = r02;
     directions[37] = r12;
     directions[38] = r22;
@@ -126,12 +126,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     directions[42] = x_d14;
     directions[43] = y_d14;
     directions[44] = z_d14;
-    const T d15_1 = fma(T(-0.44721359549995793), d14_1, -d9_2);
-    const T d15_2 = fma(T(-0.44721359549995793), d14_2, -d9_4);
-    const T d15_3 = fma(T(-0.44721359549995793), d14_3, -d9_6);
-    directions[45] = d15_1;
-    directions[46] = d15_2;
-    directions[47] = d15_3;
+    const T minus_x_d15 = fma(T(-0.44721359549995793), d14_1, -d9_2);
+    const T minus_y_d15 = fma(T(-0.44721359549995793), d14_2, -d9_4);
+    const T minus_z_d15 = fma(T(-0.44721359549995793), d14_3, -d9_6);
+    directions[45] = minus_x_d15;
+    directions[46] = minus_y_d15;
+    directions[47] = minus_z_d15;
     const T d16_1 = T(0.35429601353354984) * r01;
     const T d16_2 = fma(T(0.85534624096741774), r00, d16_1);
     const T x_d16 = fma(T(0.37796447300922725), r02, d16_2);
@@ -171,12 +171,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     directions[57] = x_d19;
     directions[58] = y_d19;
     directions[59] = z_d19;
-    const T d20_1 = T(-0.70710678118654757) * d5_1;
-    const T d20_2 = T(-0.70710678118654757) * d5_3;
-    const T d20_3 = T(-0.70710678118654757) * d5_5;
-    directions[60] = d20_1;
-    directions[61] = d20_2;
-    directions[62] = d20_3;
+    const T minus_x_d20 = T(-0.70710678118654757) * d5_1;
+    const T minus_y_d20 = T(-0.70710678118654757) * d5_3;
+    const T minus_z_d20 = T(-0.70710678118654757) * d5_5;
+    directions[60] = minus_x_d20;
+    directions[61] = minus_y_d20;
+    directions[62] = minus_z_d20;
     const T d21_1 = T(0.86113631159405257) * r02;
     const T x_d21 = fma(T(0.50837412685363015), r01, d21_1);
     const T d21_2 = T(0.86113631159405257) * r12;
@@ -198,12 +198,12 @@ ZONAL_HOST_DEVICE static void lobes(const T* R, T* directions) {
     directions[69] = r02;
     directions[70] = r12;
     directions[71] = r22;
-    const T d24_1 = fma(T(-0.50837412685363015), r01, d21_1);
-    const T d24_2 = fma(T(-0.50837412685363015), r11, d21_2);
-    const T d24_3 = fma(T(-0.50837412685363015), r21, d21_3);
-    directions[72] = d24_1;
-    directions[73] = d24_2;
-    directions[74] = d24_3;
+    const T minus_x_d24 = fma(T(-0.50837412685363015), r01, d21_1);
+    const T minus_y_d24 = fma(T(-0.50837412685363015), r11, d21_2);
+    const T minus_z_d24 = fma(T(-0.50837412685363015), r21, d21_3);
+    directions[72] = minus_x_d24;
+    directions[73] = minus_y_d24;
+    directions[74] = minus_z_d24;
 }
 
 }  // namespace zonal::order5::per_band
