@@ -27,6 +27,7 @@ void expect_within_bounds(int order) {
     }
     const auto contestants = graph_contestants<T>(order, kernels.kernels, excess);
     ASSERT_GE(contestants.size(), 4u);
+    ASSERT_EQ(contestants.size(), bounds.size()) << "a kernel is gone that publishes a bound";
     const auto worst = accuracy::worst_errors<T>(oracle::Rotation(order), problems, contestants);
     for (std::size_t k = 0; k < contestants.size(); ++k) {
         const std::string& name = contestants[k].name;

@@ -129,20 +129,19 @@ struct LobeProperties {
     }
 };
 
+using Layout = LobeVariant::Layout;
+
 /// Runs a check for every order's shared lobes and its ring, or its lobes of each band's own.
-#define ZONAL_CHECK(suite, check, is_per_band)                                              \
-    for (const CompiledOrder& compiled : compiled_orders()) {                               \
-        for (const LobeVariant& variant : compiled.lobes) {                                 \
-            if ((variant.layout == LobeVariant::Layout::per_band) != is_per_band) continue; \
-            SCOPED_TRACE("order " + std::to_string(compiled.order) + " " + variant.prefix); \
-            suite{variant}.check();                                                         \
-        }                                                                                   \
+#define ZONAL_CHECK(suite, check, ...)                                                 \
+    for (const LobeVariant& variant : lobes_of_all_orders({__VA_ARGS__})) {            \
+        SCOPED_TRACE("order " + std::to_string(variant.order) + " " + variant.prefix); \
+        suite{variant}.check();                                                        \
     }
 #define ZONAL_LOBE_TEST(suite, name) \
-    TEST(suite, name) { ZONAL_CHECK(suite, name, false) }
+    TEST(suite, name) { ZONAL_CHECK(suite, name, Layout::shared, Layout::ring) }
 #define ZONAL_PRODUCT_TEST(suite, name) \
     ZONAL_LOBE_TEST(suite, name)        \
-    TEST(PerBand##suite, name) { ZONAL_CHECK(suite, name, true) }
+    TEST(PerBand##suite, name) { ZONAL_CHECK(suite, name, Layout::per_band) }
 ZONAL_PRODUCT_TEST(LobeProperties, factorize_and_expand_undo_each_other)
 ZONAL_PRODUCT_TEST(LobeProperties, weights_of_the_lobes_sum_to_the_signal)
 ZONAL_PRODUCT_TEST(LobeProperties, turned_lobes_are_r_times_those_of_the_identity)

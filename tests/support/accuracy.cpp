@@ -95,9 +95,19 @@ std::vector<Problem> problems(int order, int random_count, int thinning, std::ui
     return all;
 }
 
+std::vector<Problem> tiny_tilts(int order, std::uint64_t seed, int signals) {
+    std::mt19937_64 random(seed);
+    std::vector<Problem> all;
+    for (const cases::Case& tilt : cases::tiny_tilts(random))
+        for (int k = 0; k < signals; ++k)
+            all.push_back({tilt.name, tilt.rotation, cases::random_signal(order, random)});
+    return all;
+}
+
 template <class T>
 std::vector<Worst> worst_errors(const oracle::Rotation& exact, const std::vector<Problem>& problems,
                                 const std::vector<Contestant<T>>& kernels) {
+    if (problems.empty() || kernels.empty()) throw std::invalid_argument("nothing to judge");
     const int order = exact.order();
     std::vector<Worst> worst(kernels.size());
     std::vector<T> out(order * order);

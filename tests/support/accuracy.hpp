@@ -33,9 +33,12 @@ struct Problem {
 };
 template <class T>
 std::vector<Problem> problems(int order, int random_count, int thinning, std::uint64_t seed);
+/// Each of cases::tiny_tilts with so many random signals, one after another.
+std::vector<Problem> tiny_tilts(int order, std::uint64_t seed, int signals = 1);
 
 /// The worst error of a kernel: ‖result - exact‖₂ / ‖f‖₂ less what R itself excuses, where exact is the turn
 /// by the orthonormal matrix nearest to R as it is given in T. NaN counts as infinite.
+/// Throws std::invalid_argument where there is no problem or no kernel.
 struct Worst {
     double error = 0;  ///< less the kernel's own excess times ‖R Rᵀ - I‖_F
     std::string name;  ///< where it was met

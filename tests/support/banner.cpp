@@ -18,6 +18,12 @@ std::string text_of(int order, const std::string& kernel) {
     return text.str();
 }
 
+/// The header's first comment: expressions take long to find in all of it.
+std::string banner_text(int order, const std::string& kernel) {
+    const std::string text = text_of(order, kernel);
+    return text.substr(0, text.find("#pragma once"));
+}
+
 std::smatch find(int order, const std::string& kernel, const std::string& text, const std::string& pattern) {
     std::smatch match;
     if (!std::regex_search(text, match, std::regex(pattern)))
@@ -28,7 +34,7 @@ std::smatch find(int order, const std::string& kernel, const std::string& text, 
 }  // namespace
 
 Bound bound(int order, const std::string& kernel) {
-    const std::string text = text_of(order, kernel);
+    const std::string text = banner_text(order, kernel);
     const std::smatch match = find(order, kernel, text,
                                    R"(bound   : ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\), with fused )"
                                    R"(instructions, for det R = \+1( or -1)?;\s+//\s+relative to \|f\|; )"
@@ -36,8 +42,16 @@ Bound bound(int order, const std::string& kernel) {
     return {std::stod(match[1]), std::stod(match[2]), std::stod(match[4]), match[3].matched};
 }
 
+bool comment_takes_mirrors(int order, const std::string& kernel) {
+    const std::string text = text_of(order, kernel), words = "orthonormal rows, det R = +1";
+    const std::size_t place = text.find(words);
+    if (place == std::string::npos || place > text.find(" void "))
+        throw std::runtime_error(fmt::format("order {}: no word on det R above {}", order, kernel));
+    return text.compare(place + words.size(), 6, " or -1") == 0;
+}
+
 Cost cost(int order, const std::string& kernel) {
-    const std::string text = text_of(order, kernel), counts = R"((\d+ mul \d+ add \d+ fma \d+ other))";
+    const std::string text = banner_text(order, kernel), counts = R"((\d+ mul \d+ add \d+ fma \d+ other))";
     const std::smatch match =
         find(order, kernel, text, "cost    : " + counts + R"(;\s+//\s+per extra vector )" + counts);
     return {match[1], match[2]};

@@ -14,6 +14,10 @@ struct Bound {
 /// Throws std::runtime_error naming order and kernel where it publishes none.
 Bound bound(int order, const std::string& kernel);
 
+/// Whether the comment above a function that takes R and f says that det R may be -1. Throws where it says
+/// nothing of det R.
+bool comment_takes_mirrors(int order, const std::string& kernel);
+
 /// What the banner says of one vector, and of every further one of the same rotation: "12 mul 3 add 4 fma 0
 /// other".
 struct Cost {

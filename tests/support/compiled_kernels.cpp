@@ -22,6 +22,30 @@ const CompiledOrder& compiled_order(int order) {
     throw std::out_of_range("order " + std::to_string(order) + " is not compiled");
 }
 
+std::vector<CompiledOrder> orders_with_polynomial() {
+    std::vector<CompiledOrder> found;
+    for (const CompiledOrder& compiled : all_orders()) {
+        if (compiled.has_polynomial() != is_to_have_polynomial(compiled.order))
+            throw std::logic_error("rotate_polynomial of order " + std::to_string(compiled.order));
+        if (compiled.has_polynomial()) found.push_back(compiled);
+    }
+    return found;
+}
+
+std::vector<LobeVariant> lobes_of_all_orders(const std::vector<LobeVariant::Layout>& layouts) {
+    std::vector<LobeVariant> found;
+    for (const CompiledOrder& compiled : all_orders()) {
+        if (!is_to_have_lobes(compiled.order)) continue;
+        for (const LobeVariant::Layout layout : layouts) {
+            const auto lobes = std::ranges::find(compiled.lobes, layout, &LobeVariant::layout);
+            if (lobes == compiled.lobes.end())
+                throw std::logic_error("lobes of order " + std::to_string(compiled.order));
+            found.push_back(*lobes);
+        }
+    }
+    return found;
+}
+
 bool add_compiled_order(CompiledOrder order) {
     std::vector<CompiledOrder>& all = all_orders();
     const auto place = std::ranges::find_if(

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "support/channels.hpp"
 #include "support/counting.hpp"
 #include "zonal/rgb.hpp"
 
@@ -19,11 +20,11 @@ using RotateKernel = void (*)(const T* R, const V* f, V* out);
 template <class T>
 using OneInputKernel = void (*)(const T* in, T* out);
 
-template <class T>
+template <class T, class V = T>
 struct RotateKernels {
-    RotateKernel<T> rotate = nullptr, rotate_accurate = nullptr, rotate_polynomial = nullptr;
+    RotateKernel<T, V> rotate = nullptr, rotate_accurate = nullptr, rotate_polynomial = nullptr;
     OneInputKernel<T> prepare = nullptr, blocks = nullptr;
-    RotateKernel<T> apply = nullptr;  ///< of what `prepare` made
+    RotateKernel<T, V> apply = nullptr;  ///< of what `prepare` made
 };
 
 template <class T>
@@ -43,6 +44,7 @@ struct LobeVariant {
     LobeKernels<float> in_float;
     LobeKernels<double> in_double;
     LobeKernels<Counting> counting;
+    RotateKernel<float, Channels> rotate_zhf_channels = nullptr;
     OneInputKernel<Rgb<double>> factorize_rgb = nullptr;
 
     int ring() const { return 2 * order - 1; }
@@ -65,6 +67,7 @@ struct CompiledOrder {
     bool takes_mirrors;
     RotateKernels<float> in_float;
     RotateKernels<double> in_double;
+    RotateKernels<float, Channels> in_channels;
     RotateKernels<Counting> counting;
     RotateKernel<double, Rgb<double>> rotate_rgb = nullptr;
     RotateKernel<Counting, CountingRgb> rotate_counting_rgb = nullptr;
@@ -86,6 +89,13 @@ struct CompiledOrder {
 const std::vector<CompiledOrder>& compiled_orders();
 /// Throws std::out_of_range for an order that is not compiled.
 const CompiledOrder& compiled_order(int order);
+/// Whether an order is to have lobes, or `rotate_polynomial`, whatever its header says.
+constexpr bool is_to_have_lobes(int order) { return order >= 3; }
+constexpr bool is_to_have_polynomial(int order) { return order == 4; }
+/// The orders, and the sets of lobes of these layouts, that are compiled and to have such kernels. Throw
+/// std::logic_error where one is gone: a test that runs over them fails then.
+std::vector<CompiledOrder> orders_with_polynomial();
+std::vector<LobeVariant> lobes_of_all_orders(const std::vector<LobeVariant::Layout>& layouts);
 /// For the files that hold one order each.
 bool add_compiled_order(CompiledOrder order);
 

@@ -15,17 +15,15 @@ static_assert(order::kHasLobes == ZONAL_TEST_HAS_LOBES &&
               order::kHasPerBandLobes == ZONAL_TEST_HAS_PER_BAND &&
               order::kHasPolynomial == ZONAL_TEST_HAS_POLYNOMIAL);
 
-template <class T>
-RotateKernels<T> rotate_kernels() {
-    RotateKernels<T> kernels{.rotate = order::rotate<T, T>,
-                             .rotate_accurate = order::rotate_accurate<T, T>,
-                             .prepare = order::prepare<T>,
-                             .apply = order::apply<T, T>};
-    if constexpr (!std::is_same_v<T, float>) kernels.blocks = order::blocks<T>;
+template <class T, class V = T>
+RotateKernels<T, V> rotate_kernels() {
+    return {
+        .rotate = order::rotate<T, V>, .rotate_accurate = order::rotate_accurate<T, V>,
 #if ZONAL_TEST_HAS_POLYNOMIAL
-    kernels.rotate_polynomial = order::rotate_polynomial<T, T>;
+        .rotate_polynomial = order::rotate_polynomial<T, V>,
 #endif
-    return kernels;
+        .prepare = order::prepare<T>, .blocks = order::blocks<T>, .apply = order::apply<T, V>
+    };
 }
 
 #define ZONAL_PRODUCTS(place, T)                                                                \
@@ -33,27 +31,34 @@ RotateKernels<T> rotate_kernels() {
         .lobes = place::lobes<T>, .factorize = place::factorize<T>, .expand = place::expand<T>, \
         .resample = place::resample<T>, ZONAL_ZHF(T),                                           \
     }
-#define ZONAL_VARIANT(prefix_, layout_, place)                                                       \
-    {                                                                                                \
-        .prefix = prefix_, .layout = LobeVariant::Layout::layout_, .order = ZONAL_TEST_ORDER,        \
-        .in_float = {ZONAL_ZHF(float)}, .in_double = ZONAL_PRODUCTS(place, double),                  \
-        .counting = ZONAL_PRODUCTS(place, Counting), .factorize_rgb = place::factorize<Rgb<double>>, \
+#define ZONAL_VARIANT(prefix_, layout_, place)                                                \
+    {                                                                                         \
+        .prefix = prefix_, .layout = LobeVariant::Layout::layout_, .order = ZONAL_TEST_ORDER, \
+        .in_float = {ZONAL_ZHF(float)}, .in_double = ZONAL_PRODUCTS(place, double),           \
+        .counting = ZONAL_PRODUCTS(place, Counting), ZONAL_ZHF_CHANNELS,                      \
+        .factorize_rgb = place::factorize<Rgb<double>>,                                       \
     }
 
 std::vector<LobeVariant> lobe_variants() {
     std::vector<LobeVariant> variants;
 #if ZONAL_TEST_HAS_LOBES
 #define ZONAL_ZHF(T) .rotate_zhf = order::rotate_zhf<T, T>
+#define ZONAL_ZHF_CHANNELS .rotate_zhf_channels = order::rotate_zhf<float, Channels>
     variants.push_back(ZONAL_VARIANT("", shared, order));
 #undef ZONAL_ZHF
+#undef ZONAL_ZHF_CHANNELS
 #define ZONAL_ZHF(T) .rotate_zhf = order::stable::rotate_zhf<T, T>
+#define ZONAL_ZHF_CHANNELS .rotate_zhf_channels = order::stable::rotate_zhf<float, Channels>
     variants.push_back(ZONAL_VARIANT("stable::", ring, order::stable));
 #undef ZONAL_ZHF
+#undef ZONAL_ZHF_CHANNELS
 #endif
 #if ZONAL_TEST_HAS_PER_BAND
 #define ZONAL_ZHF(T) .rotate_zhf = nullptr
+#define ZONAL_ZHF_CHANNELS .rotate_zhf_channels = nullptr
     variants.push_back(ZONAL_VARIANT("per_band::", per_band, order::per_band));
 #undef ZONAL_ZHF
+#undef ZONAL_ZHF_CHANNELS
 #endif
     return variants;
 }
@@ -61,7 +66,8 @@ std::vector<LobeVariant> lobe_variants() {
 [[maybe_unused]] const bool kIsAdded = add_compiled_order({
     .order = ZONAL_TEST_ORDER, .scalars = order::kScalars, .takes_mirrors = order::kTakesMirrors != 0,
     .in_float = rotate_kernels<float>(), .in_double = rotate_kernels<double>(),
-    .counting = rotate_kernels<Counting>(), .rotate_rgb = order::rotate<double, Rgb<double>>,
+    .in_channels = rotate_kernels<float, Channels>(), .counting = rotate_kernels<Counting>(),
+    .rotate_rgb = order::rotate<double, Rgb<double>>,
     .rotate_counting_rgb = order::rotate<Counting, CountingRgb>,
     .rotate_counting_signal = order::rotate<double, CountingSignal>,
 #if ZONAL_TEST_HAS_POLYNOMIAL

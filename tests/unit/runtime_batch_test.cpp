@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -236,8 +237,9 @@ template <class T>
 class BatchAsKernel {
   public:
     BatchAsKernel(std::string_view target, const Problems& problems, int order, Form form, int channels,
-                  const std::vector<Eigen::Quaternion<T>>& quaternions = {})
+                  const std::vector<Eigen::Quaternion<T>>& quaternions = {}, bool flushes_denormals = false)
         : target_(target),
+          flushes_denormals_(flushes_denormals),
           batch_({.order = order,
                   .layout = {.count = form == Form::one_for_all ? kTogether : problems.size(),
                              .channels = channels},
@@ -281,10 +283,13 @@ class BatchAsKernel {
     }
     void turn() {
         ASSERT_TRUE(zonal::batch::choose_target(target_));
+        std::optional<zonal::FlushedDenormals> flushed;
+        if (flushes_denormals_) flushed.emplace();
         batch_.rotate();
     }
 
     std::string_view target_;
+    bool flushes_denormals_;
     Batch<T> batch_;
     std::size_t next_ = 0;
 };
@@ -294,15 +299,16 @@ template <class T>
 void expect_within_published_bounds(const Problems& problems, const zonal::oracle::Rotation& exact,
                                     const std::vector<std::string_view>& targets,
                                     const std::vector<Form>& forms,
-                                    const std::vector<Eigen::Quaternion<T>>& quaternions = {}) {
+                                    const std::vector<Eigen::Quaternion<T>>& quaternions = {},
+                                    bool flushes_denormals = false) {
     const int order = exact.order();
     std::vector<zonal::accuracy::Contestant<T>> contestants;
     std::vector<double> bounds;
     for (const std::string_view target : targets) {
         for (const Form form : forms) {
             for (const int channels : {1, 3}) {
-                const auto batch =
-                    std::make_shared<BatchAsKernel<T>>(target, problems, order, form, channels, quaternions);
+                const auto batch = std::make_shared<BatchAsKernel<T>>(target, problems, order, form, channels,
+                                                                      quaternions, flushes_denormals);
                 contestants.push_back(
                     {std::string(target) + ", form " + std::to_string(static_cast<int>(form)) + ", " +
                          std::to_string(channels) + " channels",
@@ -374,6 +380,22 @@ std::vector<Eigen::Quaternion<T>> quaternions_of(Problems& problems) {
     return quaternions;
 }
 
+/// The same of the problems' rotations as quaternions, judged by the matrices that the batch makes of them.
+template <class T>
+void expect_quaternions_within_published_bounds(int order, Problems problems,
+                                                bool flushes_denormals = false) {
+    const std::vector<Eigen::Quaternion<T>> quaternions = quaternions_of<T>(problems);
+    const zonal::oracle::Rotation exact(order);
+    for (const std::string_view target : zonal::batch::runnable_targets()) {
+        ASSERT_TRUE(zonal::batch::choose_target(target));
+        const std::vector<RotationMatrix<T>> matrices = matrices_in_use(quaternions);
+        for (std::size_t k = 0; k < matrices.size(); ++k)
+            std::copy_n(matrices[k].data(), 9, problems[k].rotation.begin());
+        expect_within_published_bounds<T>(problems, exact, {target}, {Form::quaternions}, quaternions,
+                                          flushes_denormals);
+    }
+}
+
 /// Every case runs on every instruction set that this processor has.
 template <class T>
 class runtime_batch : public testing::Test {
@@ -386,6 +408,7 @@ class runtime_batch : public testing::Test {
             for (const int order : zonal::compiled_orders()) body(order);
         }
     }
+    void SetUp() override { ASSERT_FALSE(zonal::batch::runnable_targets().empty()); }
     void TearDown() override {
         zonal::batch::choose_target("");
         zonal::batch::set_streamed_bytes(zonal::batch::kStreamedBytes);
@@ -512,18 +535,20 @@ TYPED_TEST(runtime_batch, quaternions_become_matrices_but_for_rounding) {
 }
 
 TYPED_TEST(runtime_batch, hard_quaternions_are_within_the_published_bounds) {
-    using T = TypeParam;
-    for (const int order : judged_orders()) {
-        Problems problems = zonal::accuracy::problems<T>(order, kRandomRotations, kThinning, 2000 + order);
-        const std::vector<Eigen::Quaternion<T>> quaternions = quaternions_of<T>(problems);
-        const zonal::oracle::Rotation exact(order);
-        for (const std::string_view target : zonal::batch::runnable_targets()) {
-            ASSERT_TRUE(zonal::batch::choose_target(target));
-            const std::vector<RotationMatrix<T>> matrices = matrices_in_use(quaternions);
-            for (std::size_t k = 0; k < matrices.size(); ++k)
-                std::copy_n(matrices[k].data(), 9, problems[k].rotation.begin());
-            expect_within_published_bounds<T>(problems, exact, {target}, {Form::quaternions}, quaternions);
-        }
+    for (const int order : judged_orders())
+        expect_quaternions_within_published_bounds<TypeParam>(
+            order, zonal::accuracy::problems<TypeParam>(order, kRandomRotations, kThinning, 2000 + order));
+}
+
+/// Squares of what R tells of a pole's direction are lost where denormals are flushed.
+TYPED_TEST(runtime_batch, tiny_tilts_are_within_the_published_bounds_where_denormals_are_flushed) {
+    if (!zonal::FlushedDenormals::kIsSupported) GTEST_SKIP() << "not known how to flush denormals here";
+    for (const int order : zonal::compiled_orders()) {
+        const Problems problems = zonal::accuracy::tiny_tilts(order, 3000 + order);
+        expect_within_published_bounds<TypeParam>(problems, zonal::oracle::Rotation(order),
+                                                  zonal::batch::runnable_targets(),
+                                                  {Form::matrices, Form::one_for_all}, {}, true);
+        expect_quaternions_within_published_bounds<TypeParam>(order, problems, true);
     }
 }
 
