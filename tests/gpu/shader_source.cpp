@@ -22,13 +22,22 @@ std::string functions_named(const std::string& file, const std::string& name) {
     return text;
 }
 
+std::string function_name(int order, const ReferenceKernel& kernel) {
+    return fmt::format("zonal_order{}_{}", order, kernel.name);
+}
+
+/// A kernel's functions, and those that they call.
+std::string functions_of(int order, const ReferenceKernel& kernel) {
+    const std::string file = file_of(order), name = function_name(order, kernel);
+    const std::string function = functions_named(file, name);
+    if (function.empty()) throw std::runtime_error(fmt::format("order {}: no function {}", order, name));
+    return functions_named(file, name + "_channels") + function;
+}
+
 }  // namespace
 
 std::string compute_shader(int order, const ReferenceKernel& kernel, int channels) {
-    const std::string file = file_of(order), name = fmt::format("zonal_order{}_{}", order, kernel.name);
-    const std::string function = functions_named(file, name);
-    if (function.empty()) throw std::runtime_error(fmt::format("order {}: no function {}", order, name));
-
+    const std::string functions = functions_of(order, kernel), name = function_name(order, kernel);
     const std::string type = channels == 3 && kernel.has_signal() ? "vec3" : "float";
     std::string declarations, loads, arguments;
     if (kernel.rotation_size > 0) {
@@ -53,7 +62,7 @@ std::string compute_shader(int order, const ReferenceKernel& kernel, int channel
         stores += fmt::format("        outputs[(int(vector) * {} + i) * {} + {}] = o[i]{};\n",
                               kernel.output_size, channels, c, type == "vec3" ? fmt::format("[{}]", c) : "");
     stores += "    }\n";
-    return "#version 450\n" + functions_named(file, name + "_channels") + function +
+    return "#version 450\n" + functions +
            "layout(local_size_x_id = 0) in;\n"
            "layout(push_constant) uniform Push { uint count; };\n" +
            declarations + "layout(std430, binding = 2) buffer Outputs { float outputs[]; };\n" +
@@ -62,6 +71,46 @@ std::string compute_shader(int order, const ReferenceKernel& kernel, int channel
            "    if (vector >= count) return;\n" +
            loads + fmt::format("    {} o[{}];\n    {}({}o);\n", type, kernel.output_size, name, arguments) +
            stores + "}\n";
+}
+
+std::string fragment_shader(int order, const ReferenceKernel& kernel, int channels) {
+    const bool is_vec3 = channels == 3 && kernel.has_signal();
+    const std::string type = is_vec3 ? "highp vec3" : "highp float";
+    std::string text = "#version 300 es\nprecision mediump float;\n" + functions_of(order, kernel);
+    text +=
+        "uniform highp sampler2D rotations, inputs;\n"
+        "layout(location = 0) out highp vec4 results;\n"
+        "void main() {\n"
+        "    highp int vector = int(gl_FragCoord.y), pixel = int(gl_FragCoord.x);\n";
+    std::string arguments;
+    if (kernel.rotation_size > 0) {
+        text += fmt::format(
+            "    highp float R[{0}];\n"
+            "    for (int i = 0; i < {0}; ++i) R[i] = texelFetch(rotations, ivec2(i, vector), 0).r;\n",
+            kernel.rotation_size);
+        arguments += "R, ";
+    }
+    if (kernel.has_signal()) {
+        text += fmt::format("    {} f[{}];\n", type, kernel.input_size);
+        for (int c = 0; c < (is_vec3 ? 3 : 1); ++c)
+            text += fmt::format(
+                "    for (int i = 0; i < {}; ++i)\n"
+                "        f[i]{} = texelFetch(inputs, ivec2({} * i + {}, vector), 0).r;\n",
+                kernel.input_size, is_vec3 ? fmt::format("[{}]", c) : "", is_vec3 ? 3 : 1, c);
+        arguments += "f, ";
+    }
+    text += fmt::format("    {} o[{}];\n    {}({}o);\n", type, kernel.output_size,
+                        function_name(order, kernel), arguments);
+    // Indices are constant: of an array that is indexed by a variable llvmpipe makes far more code.
+    const int size = kernel.output_size * (is_vec3 ? 3 : 1);
+    for (int i = 0; i < size; ++i)
+        text += fmt::format("    if (pixel == {}) results[{}] = o[{}];\n", i / 4, i % 4,
+                            is_vec3 ? fmt::format("{}][{}", i / 3, i % 3) : fmt::format("{}", i));
+    return text + "}\n";
+}
+
+bool divides(int order, const ReferenceKernel& kernel) {
+    return functions_of(order, kernel).find(" / ") != std::string::npos;
 }
 
 std::string whole_file_shader(int order) {
