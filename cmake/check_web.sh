@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Compiles generated/glsl as GLSL ES 3.00 and WGSL of orders 3, 6 and 10 in headless Chromium, renders a ball under a
-# turning light by orders 3 and 4 in WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium,
-# Node.js and npm where missing.
+# Runs the JavaScript of generated/js in node. In headless Chromium: compiles generated/glsl as GLSL ES 3.00, and
+# generated/wgsl; runs the WGSL of orders 3, 4 and 6; compares every turn with the oracle; renders a ball under a turning
+# light by orders 3 and 4 in WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium, Node.js
+# and npm where missing.
 #   bash cmake/check_web.sh [BUILD_FOLDER, default build/release]
-# Writes build/check_web/: lit_sphere.png (orders downwards, turns to the right), scene.json, values.f32.
-# Exit status not zero, and what differs, when a pixel is off by more than rounding explains.
+# Writes build/check_web/: lit_sphere.png (orders downwards, turns to the right), scene.json, values.f32; turns.json and
+# turned.f32 of the WGSL, js_turns.json and js_turned.f64 of JavaScript.
+# Exit status not zero, and what differs, when a turn is not within its published bound, or a pixel is off by more than
+# rounding explains.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$(realpath "${1:-$root/build/release}")
@@ -16,12 +19,12 @@ command -v npm >/dev/null || packages+=(npm) # a Node.js from elsewhere brings i
 bash "$root/cmake/install_packages.sh" "${packages[@]}"
 chromium=$(command -v chromium)
 
-cmake --build "$build" --target zonal-gen zonal-lit-sphere
+cmake --build "$build" --target zonal-lit-sphere zonal-language-turns
 judge=$build/bin/zonal-lit-sphere
 
 # npm installs beside the scripts that import: copies, so that the sources stay clean.
 mkdir -p "$work"
-rm -f "$work/values.f32" "$work/lit_sphere.png"
+rm -f "$work"/{values.f32,lit_sphere.png,turned.f32,js_turned.f64}
 cp "$root"/tests/web/{*.mjs,package.json,package-lock.json} "$work/"
 if ! (cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1; then
   cat "$work/npm.log" >&2
@@ -29,13 +32,22 @@ if ! (cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1; then
   exit 1
 fi
 
-for order in 3 6 10; do
-  "$build/bin/zonal-gen" emit --order $order --language wgsl --out "$work/wgsl" >"$work/wgsl.log"
-done
-timeout 120 node "$work/check_wgsl.mjs" "$chromium" "$work"/wgsl/*/*.wgsl || {
+turns=$build/bin/zonal-language-turns
+"$turns" js write "$work/js_turns.json"
+timeout 120 node "$work/run_js.mjs" "$work/js_turns.json" "$root/generated/js" "$work/js_turned.f64"
+"$turns" js compare "$work/js_turned.f64"
+
+timeout 120 node "$work/check_wgsl.mjs" "$chromium" "$root"/generated/wgsl/*/*.wgsl || {
   echo "Chromium's WebGPU does not take what generator/emit/wgsl.cpp prints (status $?)" >&2
   exit 1
 }
+
+"$turns" wgsl write "$work/turns.json"
+timeout 300 node "$work/run_wgsl.mjs" "$chromium" "$work/turns.json" "$root/generated/wgsl" "$work/turned.f32" || {
+  echo "Chromium's WebGPU did not run what generator/emit/wgsl.cpp prints (status $?; 124: not within five minutes)" >&2
+  exit 1
+}
+"$turns" wgsl compare "$work/turned.f32"
 
 "$judge" scene --map "$root/tests/data/studio.exr" --out "$work/scene.json"
 timeout 120 node "$work/render.mjs" "$chromium" "$root" "$work/scene.json" "$work" || {

@@ -6,7 +6,7 @@ packages=(
   libeigen3-dev libboost-dev libnlopt-dev libnlopt-cxx-dev libtbb-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libssl-dev libopenexr-dev libstb-dev libgtest-dev libgmock-dev libbenchmark-dev libhwy-dev
   spirv-tools spirv-headers spirv-cross glslang-dev glslang-tools
-  libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
+  libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers libegl-dev libgles-dev libgl1-mesa-dri
 )
 packages+=("$@")
 missing=()

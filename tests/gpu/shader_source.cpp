@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include "gpu/emitted_shaders.hpp"
@@ -16,6 +17,11 @@ namespace fs = std::filesystem;
 
 fs::path folder_of(int order, ShaderLanguage language) {
     return (language == ShaderLanguage::hlsl ? hlsl_folder() : glsl_folder()) / order_stem(order);
+}
+
+std::string text_of(int order, const ReferenceKernel& kernel, ShaderLanguage language) {
+    return read_text(folder_of(order, language) /
+                     (kernel.name + (language == ShaderLanguage::hlsl ? ".hlsl" : ".glsl")));
 }
 
 /// What a language calls buffers, the entry and types, so that the rest is the same text in both.
@@ -79,13 +85,55 @@ std::string compute_shader(int order, const ReferenceKernel& kernel, int channel
         stores += fmt::format("        outputs[(int(v) * {} + k) * {} + {}] = o[k]{};\n", kernel.output_size,
                               channels, c, type == "vec3" ? fmt::format("[{}]", c) : "");
     stores += "    }\n";
-    const std::string ending = language == ShaderLanguage::hlsl ? ".hlsl" : ".glsl";
-    return frame.start + read_text(folder_of(order, language) / (kernel.name + ending)) + frame.push +
-           declarations + buffer(2, false, "outputs") + frame.entry + "    if (v >= count) return;\n" +
-           loads +
+    return frame.start + text_of(order, kernel, language) + frame.push + declarations +
+           buffer(2, false, "outputs") + frame.entry + "    if (v >= count) return;\n" + loads +
            fmt::format("    {} o[{}];\n    zonal_order{}_{}({}o);\n", type, kernel.output_size, order,
                        kernel.name, arguments) +
            stores + "}\n";
+}
+
+std::string fragment_shader(int order, const ReferenceKernel& kernel, int channels) {
+    const bool is_vec3 = channels == 3 && kernel.has_signal();
+    const std::string type = is_vec3 ? "highp vec3" : "highp float";
+    std::string text =
+        "#version 300 es\nprecision mediump float;\n" + text_of(order, kernel, ShaderLanguage::glsl);
+    text +=
+        "uniform highp sampler2D rotations, inputs;\n"
+        "layout(location = 0) out highp vec4 results;\n"
+        "void main() {\n"
+        "    highp int vector = int(gl_FragCoord.y), pixel = int(gl_FragCoord.x);\n";
+    std::string arguments;
+    if (kernel.rotation_size > 0) {
+        text += fmt::format(
+            "    highp float R[{0}];\n"
+            "    for (int i = 0; i < {0}; ++i) R[i] = texelFetch(rotations, ivec2(i, vector), 0).r;\n",
+            kernel.rotation_size);
+        arguments += "R, ";
+    }
+    if (kernel.has_signal()) {
+        text += fmt::format("    {} f[{}];\n", type, kernel.input_size);
+        for (int c = 0; c < (is_vec3 ? 3 : 1); ++c)
+            text += fmt::format(
+                "    for (int i = 0; i < {}; ++i)\n"
+                "        f[i]{} = texelFetch(inputs, ivec2({} * i + {}, vector), 0).r;\n",
+                kernel.input_size, is_vec3 ? fmt::format("[{}]", c) : "", is_vec3 ? 3 : 1, c);
+        arguments += "f, ";
+    }
+    text += fmt::format("    {} o[{}];\n    zonal_order{}_{}({}o);\n", type, kernel.output_size, order,
+                        kernel.name, arguments);
+    // Indices are constant: of an array that is indexed by a variable llvmpipe makes far more code.
+    const int size = kernel.output_size * (is_vec3 ? 3 : 1);
+    for (int i = 0; i < size; ++i)
+        text += fmt::format("    if (pixel == {}) results[{}] = o[{}];\n", i / 4, i % 4,
+                            is_vec3 ? fmt::format("{}][{}", i / 3, i % 3) : fmt::format("{}", i));
+    return text + "}\n";
+}
+
+bool divides(int order, const ReferenceKernel& kernel) {
+    std::istringstream lines(text_of(order, kernel, ShaderLanguage::glsl));
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with("//") && line.find(" / ") != std::string::npos) return true;
+    return false;
 }
 
 std::string shader_of_all_files(int order, ShaderLanguage language) {
