@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "apps/emit_jobs.hpp"
 #include "bounds/published.hpp"
@@ -22,6 +24,9 @@
 #include "kernels/lobes.hpp"
 #include "kernels/order_kernels.hpp"
 #include "kernels/registry.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
+#include "program/shown.hpp"
 
 namespace zonal {
 
@@ -31,7 +36,7 @@ namespace fs = std::filesystem;
 
 struct EmitOptions {
     std::optional<int> order;
-    std::string orders;
+    std::optional<std::string> orders;
     std::string language;
     std::string languages;
     std::string table;
@@ -109,6 +114,18 @@ const Language& find_language(const char* option, const std::string& name) {
     throw UserError(fmt::format("{}: found '{}', wanted one of: {}", option, name, known));
 }
 
+/// A text as one word of a command.
+std::string shell_word(const std::string& text) {
+    const auto is_plain = [](unsigned char byte) {
+        return std::isalnum(byte) != 0 || byte >= 0x80 ||
+               std::string_view("_-./+,:=@%").find(static_cast<char>(byte)) != std::string_view::npos;
+    };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+    std::string word = "'";
+    for (const char byte : text) word += byte == '\'' ? "'\\''" : std::string(1, byte);
+    return word + "'";
+}
+
 std::vector<std::string> lines_of(const OrderTables& tables) {
     if (!tables.shared) return {"none for this order, so no searched lobes: zonal-gen search"};
     const auto describe = [](const NamedTable& source, const char* use = "") {
@@ -123,7 +140,8 @@ std::vector<std::string> lines_of(const OrderTables& tables) {
 /// The command that makes one language of an order, whatever else the run makes.
 std::string command_of(const EmitOptions& options, const OrderKernels& order, const std::string& language) {
     return fmt::format("zonal-gen emit --order {} --language {}{}{} --out generated/{}", order.order,
-                       language, options.table.empty() ? "" : " --table " + order.tables.shared->name,
+                       language,
+                       order.tables.chosen ? " --table " + shell_word(order.tables.chosen->name) : "",
                        options.is_optimized ? " --optimize" : "", language);
 }
 
@@ -139,7 +157,7 @@ emit::Unit make_unit(const OrderKernels& order) {
         for (const std::string& source : kernel.sources)
             if (std::find(unit.sources.begin(), unit.sources.end(), source) == unit.sources.end())
                 unit.sources.push_back(source);
-    unit.bounds = published_bounds(order.order, order.tables);
+    unit.bounds = published_bounds(order.order, order.tables, order.kernels);
     unit.constants = {
         {"kHasLobes", order.tables.shared ? 1 : 0, "1 where the lobe kernels are here, else 0"}};
     const bool has_per_band = std::ranges::any_of(
@@ -164,18 +182,17 @@ EmitJobs jobs_of(const EmitOptions& options) {
     if (!options.language.empty()) find_language("--language", options.language);
     std::set<int> orders;
     if (options.order) {
-        check_order(*options.order);
         orders = {*options.order};
-    } else if (!options.orders.empty()) {
-        orders = orders_of("--orders", options.orders);
+    } else if (options.orders) {
+        orders = orders_of("--orders", *options.orders);
     }
-    const EmitJobs jobs = emit_jobs(orders, options.language.empty() ? options.languages : options.language);
+    const auto check = [](const std::string& name) { find_language("--languages", name); };
+    const EmitJobs jobs =
+        emit_jobs(orders, options.language.empty() ? options.languages : options.language, check);
     for (const auto& [order, names] : jobs)
-        for (const std::string& name : names) {
-            find_language("--languages", name);
+        for (const std::string& name : names)
             if ((options.is_optimized || options.is_binary) && name != "spirv")
                 throw UserError(fmt::format("--optimize, --binary: found with {}, wanted spirv alone", name));
-        }
     return jobs;
 }
 
@@ -195,7 +212,7 @@ void run(const EmitOptions& options) {
             const fs::path folder = folder_of(options, name);
             for (const emit::File& file : languages().at(name)(unit, order, options)) {
                 write_file_atomically(folder / file.path, file.content);
-                fmt::print("{}\n", (folder / file.path).string());
+                fmt::print("{}\n", program::shown_on_stdout((folder / file.path).string()));
             }
         }
     }
@@ -206,24 +223,32 @@ void run(const EmitOptions& options) {
 void add_emit_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
     const auto options = std::make_shared<EmitOptions>();
-    CLI::Option* order = command->add_option("--order", options->order, "number of bands");
+    CLI::Option* order =
+        program::add_number(*command, "--order", options->order,
+                            program::from_to(kSmallestOrder, kLargestOrder), "number of bands");
     command->add_option("--orders", options->orders, "several orders, such as 3-6,8")->excludes(order);
     CLI::Option_group* language = command->add_option_group("language", "what to write");
-    language->add_option("--language", options->language, "cpp, glsl, spirv or wgsl");
+    language->add_option("--language", options->language, "cpp, glsl, spirv or wgsl")
+        ->check(program::not_empty());
     language->add_option("--languages", options->languages,
                          "several languages, such as cpp,glsl; one may have orders of its own, joined by +: "
                          "cpp:2-10,glsl:3-6+8");
     language->require_option(1);
     command
-        ->add_option("--table", options->table, "lobe table (default: generator/tables/shared/orderNN.json)")
+        ->add_option(
+            "--table", options->table,
+            "lobe table to take for what its field `for` names (default: those of the folder of tables)")
+        ->check(program::not_empty())
         ->needs(order);
-    command->add_option("--out", options->out,
-                        "folder to write into (default: generated/LANGUAGE); with --languages the folder of "
-                        "their folders (default: generated)");
+    command
+        ->add_option("--out", options->out,
+                     "folder to write into (default: generated/LANGUAGE); with --languages the folder of "
+                     "their folders (default: generated)")
+        ->check(program::not_empty());
     command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");
     command->add_flag("--binary", options->is_binary, "spirv: write assembled modules (.spv) as well");
     command->callback([options] {
-        if (!options->language.empty() && !options->order && options->orders.empty())
+        if (!options->language.empty() && !options->order && !options->orders)
             throw UserError("--language: found no order, wanted --order N or --orders 3-6,8");
         run(*options);
     });

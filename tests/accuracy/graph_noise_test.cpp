@@ -33,7 +33,7 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
     const int order = GetParam();
     const double granted = (order - 1) / 2.0;
     const OrderKernels& kernels = built_order(order);
-    const auto bounds = published_bounds(order, kernels.tables);
+    const auto bounds = published_bounds(order, kernels.tables, kernels.kernels);
     for (const auto& kernel : graph_contestants<double>(order, kernels.kernels, {})) {
         const std::string& name = kernel.name;
         const auto rotations = static_cast<int>(cases::some_of(order <= 5 ? 20 : 4));
