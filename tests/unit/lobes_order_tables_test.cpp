@@ -143,7 +143,7 @@ TEST_F(OwnTables, a_chosen_table_is_named_as_it_was_typed_but_for_places_of_this
 }
 
 TEST_F(OwnTables, a_name_that_would_break_a_comment_is_refused) {
-    const fs::path table = folder_ / "a\nint x = 0; //.json";
+    const fs::path table = folder_ / "a\nint x = 0;.json";
     fs::copy_file(folder_ / "shared/order03.json", table);
     TableShelf shelf = project_tables();
     EXPECT_THAT(complaint_of([&] { shelf.of_order(3, table); }),

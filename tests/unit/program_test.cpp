@@ -137,7 +137,7 @@ TEST(Messages, show_no_argument_to_the_terminal_as_it_is) {
     for (const char* arguments :
          {"emit --order 4 --language 'co\nbol\x1b[31m'", "stats --order '4\x1b[31m\n'",
           "stats --order 4 --table 'no\x1b[31m\nwhere'", "search --order 3 --out '/proc/no\x1b[31m\n/\x01'",
-          "'\x1b[31m\n'"}) {
+          "stats --order 4 '\x1b[31m\n'"}) {
         const Outcome result = zonal_gen(arguments);
         EXPECT_EQ(result.status, 1) << arguments;
         EXPECT_THAT(result.error, AllOf(StartsWith("error: "), Not(HasSubstr("\x1b")), HasSubstr("\\x1b")))

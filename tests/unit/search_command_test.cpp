@@ -93,8 +93,8 @@ TEST_F(SearchCommand, writes_what_the_table_is_for) {
     const LobeUse use = LobeUse::order(3, TableRole::rotate_zhf);
     ASSERT_EQ(search(quick + " --for rotate_zhf --resume '" + path("a.json") + "'", "b.json"), 0);
     EXPECT_EQ(read_lobe_table(path("b.json"), use).use.role, TableRole::rotate_zhf);
-    ASSERT_EQ(search(quick + " --for rotate_zhf", "b.json"), 0);
-    EXPECT_THAT(read_lobe_table(path("b.json"), use).command,
+    ASSERT_EQ(search(quick + " --for rotate_zhf", "c.json"), 0);
+    EXPECT_THAT(read_lobe_table(path("c.json"), use).command,
                 testing::AllOf(StartsWith("zonal-gen search --order 3 --for rotate_zhf --seed "),
                                HasSubstr(" --out generator/tables/rotate_zhf/order03.json")));
 }
