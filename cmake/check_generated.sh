@@ -10,6 +10,10 @@ if [ $# -lt 1 ]; then sed -n '2,4s/^# //p' "$0" >&2; exit 2; fi
 generator=$1
 [ -x "$generator" ] || { echo "$generator: found no program, wanted zonal-gen; run: bash cmake/test.sh" >&2; exit 2; }
 committed=${2:-$root/generated}
+if [ "$accept" = no ] && [ ! -d "$committed" ]; then
+  echo "$committed: found no such folder, wanted the kernels to compare; name another, or write it: bash $0 --accept $generator $committed" >&2
+  exit 2
+fi
 
 fresh=$(mktemp -d)
 trap 'rm -rf "$fresh"' EXIT

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "apps/emit_jobs.hpp"
 #include "bounds/published.hpp"
@@ -25,6 +27,9 @@
 #include "kernels/lobes.hpp"
 #include "kernels/order_kernels.hpp"
 #include "kernels/registry.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
+#include "program/shown.hpp"
 
 namespace zonal {
 
@@ -34,7 +39,7 @@ namespace fs = std::filesystem;
 
 struct EmitOptions {
     std::optional<int> order;
-    std::string orders;
+    std::optional<std::string> orders;
     std::string language;
     std::string languages;
     std::string table;
@@ -113,6 +118,18 @@ const Language& find_language(const char* option, const std::string& name) {
     throw UserError(fmt::format("{}: found '{}', wanted one of: {}", option, name, known));
 }
 
+/// A text as one word of a command.
+std::string shell_word(const std::string& text) {
+    const auto is_plain = [](unsigned char byte) {
+        return std::isalnum(byte) != 0 || byte >= 0x80 ||
+               std::string_view("_-./+,:=@%").find(static_cast<char>(byte)) != std::string_view::npos;
+    };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+    std::string word = "'";
+    for (const char byte : text) word += byte == '\'' ? "'\\''" : std::string(1, byte);
+    return word + "'";
+}
+
 /// The tables that a kernel is made of.
 std::vector<TablePointer> tables_of(const graph::Kernel& kernel, const OrderTables& tables) {
     if (kernel.variant == "per_band") return tables.per_band;
@@ -132,7 +149,7 @@ emit::Unit make_unit(const OrderKernels& order, const EmitOptions& options) {
         for (const TablePointer& source : tables_of(kernel, order.tables))
             unit.tables[kernel.full_name()].push_back(
                 fmt::format("{}  sha256:{}", source->name, source->table.short_hash()));
-    unit.bounds = published_bounds(order.order, order.tables);
+    unit.bounds = published_bounds(order.order, order.tables, order.kernels);
     const auto has = [&](const auto& is_wanted) {
         return std::ranges::any_of(unit.kernels, is_wanted) ? 1 : 0;
     };
@@ -152,13 +169,24 @@ emit::Unit make_unit(const OrderKernels& order, const EmitOptions& options) {
     return unit;
 }
 
+/// Whether a kernel, by its plain name, is made of the table that --table names.
+bool is_made_of_chosen(const OrderKernels& order, const std::string& name) {
+    if (!order.tables.chosen) return false;
+    const std::string maker = name == emit::kTailoredName ? "resample" : name;
+    return std::ranges::any_of(order.kernels, [&](const graph::Kernel& kernel) {
+        const std::vector<TablePointer> tables = tables_of(kernel, order.tables);
+        return emit::plain_name(kernel) == maker &&
+               std::ranges::find(tables, order.tables.chosen) != tables.end();
+    });
+}
+
 /// The command that makes a kernel of one language, or all of them, whatever else the run makes.
-std::string command_of(const EmitOptions& options, const emit::Unit& unit, const OrderKernels& order,
-                       const std::string& language, const std::string& kernel) {
-    const bool has_table = !options.table.empty() && (kernel.empty() || unit.tables.contains(kernel));
+std::string command_of(const EmitOptions& options, const OrderKernels& order, const std::string& language,
+                       const std::string& kernel) {
+    const bool has_table = kernel.empty() ? order.tables.chosen != nullptr : is_made_of_chosen(order, kernel);
     return fmt::format("zonal-gen emit --order {} --language {}{}{}{} --out generated/{}", order.order,
                        language, kernel.empty() ? "" : " --kernels " + kernel,
-                       has_table ? " --table " + order.tables.shared->name : "",
+                       has_table ? " --table " + shell_word(order.tables.chosen->name) : "",
                        options.is_optimized ? " --optimize" : "", language);
 }
 
@@ -178,18 +206,17 @@ EmitJobs jobs_of(const EmitOptions& options) {
     if (!options.language.empty()) find_language("--language", options.language);
     std::set<int> orders;
     if (options.order) {
-        check_order(*options.order);
         orders = {*options.order};
-    } else if (!options.orders.empty()) {
-        orders = orders_of("--orders", options.orders);
+    } else if (options.orders) {
+        orders = orders_of("--orders", *options.orders);
     }
-    const EmitJobs jobs = emit_jobs(orders, options.language.empty() ? options.languages : options.language);
+    const auto check = [](const std::string& name) { find_language("--languages", name); };
+    const EmitJobs jobs =
+        emit_jobs(orders, options.language.empty() ? options.languages : options.language, check);
     for (const auto& [order, names] : jobs)
-        for (const std::string& name : names) {
-            find_language("--languages", name);
+        for (const std::string& name : names)
             if ((options.is_optimized || options.is_binary) && name != "spirv")
                 throw UserError(fmt::format("--optimize, --binary: found with {}, wanted spirv alone", name));
-        }
     return jobs;
 }
 
@@ -209,7 +236,7 @@ void run(const EmitOptions& options) {
         emit::Unit unit = make_unit(order, options);
         for (const std::string& name : names) {
             unit.command = [&](const std::string& kernel) {
-                return command_of(options, unit, order, name, kernel);
+                return command_of(options, order, name, kernel);
             };
             Files files = languages().at(name)(unit, order, options);
             check_kernels(unit, name, files);
@@ -221,7 +248,7 @@ void run(const EmitOptions& options) {
     }
     for (const emit::File& file : all) {
         write_file_atomically(file.path, file.content);
-        fmt::print("{}\n", file.path);
+        fmt::print("{}\n", program::shown_on_stdout(file.path));
     }
 }
 
@@ -230,24 +257,33 @@ void run(const EmitOptions& options) {
 void add_emit_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("emit", "write the kernels of an order");
     const auto options = std::make_shared<EmitOptions>();
-    CLI::Option* order = command->add_option("--order", options->order, "number of bands");
+    CLI::Option* order =
+        program::add_number(*command, "--order", options->order,
+                            program::from_to(kSmallestOrder, kLargestOrder), "number of bands");
     command->add_option("--orders", options->orders, "several orders, such as 3-6,8")->excludes(order);
     CLI::Option_group* language = command->add_option_group("language", "what to write");
-    language->add_option("--language", options->language, "cpp, glsl, hlsl, js, spirv or wgsl");
+    language->add_option("--language", options->language, "cpp, glsl, hlsl, js, spirv or wgsl")
+        ->check(program::not_empty());
     language->add_option("--languages", options->languages,
                          "several languages, such as cpp,glsl; one may have orders of its own, joined by +: "
                          "cpp:2-10,glsl:3-6+8");
     language->require_option(1);
     command
-        ->add_option("--table", options->table, "lobe table (default: generator/tables/shared/orderNN.json)")
+        ->add_option(
+            "--table", options->table,
+            "lobe table to take for what its field `for` names (default: those of the folder of tables)")
+        ->check(program::not_empty())
         ->needs(order);
-    command->add_option("--out", options->out,
-                        "folder to write into (default: generated/LANGUAGE); with --languages the folder of "
-                        "their folders (default: generated)");
+    command
+        ->add_option("--out", options->out,
+                     "folder to write into (default: generated/LANGUAGE); with --languages the folder of "
+                     "their folders (default: generated)")
+        ->check(program::not_empty());
     command
         ->add_option("--kernels", options->kernels,
                      "these kernels only, such as rotate,blocks, and what they call (default: all)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(program::not_empty());
     command->add_flag(
         "--twins", options->has_twins,
         "spirv: beside each module one of three channels (_rgb) and one whose arithmetic is never "
@@ -255,7 +291,7 @@ void add_emit_command(CLI::App& app) {
     command->add_flag("--optimize", options->is_optimized, "spirv: run SPIRV-Tools' passes for performance");
     command->add_flag("--binary", options->is_binary, "spirv: write assembled modules (.spv) as well");
     command->callback([options] {
-        if (!options->language.empty() && !options->order && options->orders.empty())
+        if (!options->language.empty() && !options->order && !options->orders)
             throw UserError("--language: found no order, wanted --order N or --orders 3-6,8");
         run(*options);
     });

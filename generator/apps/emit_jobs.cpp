@@ -3,28 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
-#include <sstream>
 
 #include "io/user_error.hpp"
 #include "kernels/order_kernels.hpp"
+#include "program/numbers.hpp"
 
 namespace zonal {
 namespace {
 
+/// Of "3," the second part is empty, as is the only one of "".
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    std::size_t start = 0;
+    for (auto end = text.find(separator); end != std::string::npos; end = text.find(separator, start)) {
+        parts.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    parts.push_back(text.substr(start));
     return parts;
-}
-
-std::optional<int> whole_number(const std::string& text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
 }
 
 }  // namespace
@@ -33,24 +30,25 @@ std::set<int> orders_of(const std::string& option, const std::string& text, char
     std::set<int> orders;
     for (const std::string& part : split(text, separator)) {
         const auto dash = part.find('-');
-        const auto first = whole_number(part.substr(0, dash));
-        const auto last = dash == std::string::npos ? first : whole_number(part.substr(dash + 1));
-        if (!first || !last || *first > *last || *first < kSmallestOrder || *last > kLargestOrder)
+        const auto known = program::from_to(kSmallestOrder, kLargestOrder);
+        const std::optional<int> first = program::number_in(part.substr(0, dash), known);
+        const std::optional<int> last =
+            dash == std::string::npos ? first : program::number_in(part.substr(dash + 1), known);
+        if (!first || !last || *first > *last)
             throw UserError(fmt::format("{}: found '{}', wanted orders from {} to {}, such as 3-6{}8", option,
                                         part, kSmallestOrder, kLargestOrder, separator));
         for (int order = *first; order <= *last; ++order) orders.insert(order);
     }
-    if (orders.empty())
-        throw UserError(fmt::format("{}: found '{}', wanted at least one order, such as 3-6{}8", option, text,
-                                    separator));
     return orders;
 }
 
-EmitJobs emit_jobs(const std::set<int>& orders, const std::string& languages) {
+EmitJobs emit_jobs(const std::set<int>& orders, const std::string& languages,
+                   const std::function<void(const std::string&)>& check_language) {
     EmitJobs jobs;
     for (const std::string& part : split(languages, ',')) {
         const auto colon = part.find(':');
         const std::string language = part.substr(0, colon);
+        check_language(language);
         const std::set<int> own =
             colon == std::string::npos
                 ? orders

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -15,7 +16,9 @@ std::set<int> orders_of(const std::string& option, const std::string& text, char
 using EmitJobs = std::map<int, std::vector<std::string>>;
 
 /// `languages` joined by commas, each of the given orders or, behind a colon, of its own, those joined by +:
-/// "cpp:2-10,glsl:3-6+8". Throws `UserError` where a language has no orders or comes twice.
-EmitJobs emit_jobs(const std::set<int>& orders, const std::string& languages);
+/// "cpp:2-10,glsl:3-6+8". `check_language` throws for one that is unknown. Throws `UserError`
+/// where a language has no orders or comes twice.
+EmitJobs emit_jobs(const std::set<int>& orders, const std::string& languages,
+                   const std::function<void(const std::string&)>& check_language);
 
 }  // namespace zonal

@@ -6,18 +6,16 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "exact/angles.hpp"
+#include "io/input_file.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/user_error.hpp"
 #include "search/front.hpp"
 
 namespace zonal {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The file has every digit, but its lobes in another order than those that were scored: sums round
 /// otherwise.
@@ -28,13 +26,13 @@ class Reader {
     Reader(const std::filesystem::path& path, const LobeUse& use) : path_(path), use_(use) {}
 
     std::vector<FoundSet> read(const search::Problem& problem) const {
-        std::ifstream stream(path_, std::ios::binary);
-        if (!stream) complain("file", "nothing that can be read", "an archive");
         Json json;
         try {
-            json = Json::parse(stream);
-        } catch (const Json::parse_error& error) {
-            complain("JSON text", fmt::format("a break at byte {}", error.byte), "a whole archive");
+            json = parse_json(read_file(path_));
+        } catch (const Unreadable& error) {
+            complain("file", fmt::format("nothing that can be read ({})", error.what()), "an archive");
+        } catch (const WrongJson& error) {
+            complain("JSON text", error.what(), "a whole archive");
         }
         const int value = field<int>(json, "", use_.field.c_str(), "an integer");
         if (value != use_.value) complain(use_.field, std::to_string(value), std::to_string(use_.value));
@@ -54,12 +52,8 @@ class Reader {
 
     template <class T>
     T field(const Json& json, const std::string& place, const char* name, const char* wanted) const {
-        if (!json.is_object() || !json.contains(name)) complain(place + name, "nothing", wanted);
-        try {
-            return json.at(name).get<T>();
-        } catch (const Json::exception&) {
-            complain(place + name, json.at(name).dump().substr(0, 80), wanted);
-        }
+        return field_as<T>(json, name,
+                           [&](const std::string& found) { complain(place + name, found, wanted); });
     }
 
     FoundSet read_set(const Json& json, const std::string& place, const search::Problem& problem) const {

@@ -4,23 +4,29 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
-#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "apps/front_file.hpp"
+#include "apps/table_output.hpp"
 #include "io/output_file.hpp"
 #include "io/user_error.hpp"
 #include "kernels/order_kernels.hpp"
 #include "kernels/registry.hpp"
 #include "lobes/lobe_table.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
+#include "program/shown.hpp"
 #include "search/front.hpp"
 #include "search/off_grid_search.hpp"
 #include "search/orbit_search.hpp"
 #include "search/progress_text.hpp"
+#include "search/score.hpp"
 #include "search/search.hpp"
 
 namespace zonal {
@@ -93,7 +99,7 @@ struct SearchOptions {
 /// The table that `--resume` names.
 std::optional<LobeTable> read_start(const SearchOptions& options) {
     if (options.resume.empty()) return std::nullopt;
-    return read_lobes_to_start_from(options.resume, options.use());
+    return read_lobe_table_of_any_role(options.resume, options.use());
 }
 
 search::SearchSettings settings_of(const SearchOptions& options, const search::Problem& problem,
@@ -190,10 +196,11 @@ void check_use(const SearchOptions& options) {
             throw UserError(fmt::format("--for: found '{}', wanted {}", options.role, wanted));
         if (*role == TableRole::band_mirrored && options.mirrors == 0)
             throw UserError("--for band_mirrored: found no --mirrors, wanted how many; say --mirrors 1");
+        if (*role == TableRole::band && options.mirrors > 0)
+            throw UserError(
+                "--for band: found --mirrors, whose lobes are for band_mirrored, wanted one of the two; drop "
+                "the other");
     }
-    if (options.band == 0) return check_order(options.order, kernels::kSmallestLobeOrder);
-    if (options.band < 2 || options.band >= kLargestOrder)
-        throw UserError(fmt::format("--band: found {}, wanted 2 … {}", options.band, kLargestOrder - 1));
 }
 
 int emitted_instructions(const BandFactorization& band) {
@@ -217,6 +224,30 @@ search::SearchResult find_lobes(const SearchOptions& options, const search::Prob
     }
 }
 
+/// By the weights of this search: what it minimises, and what breaks ties in it.
+std::pair<double, int> cost_of(const LobeTable& table, const SearchOptions& options) {
+    const search::Objective& objective = options.objective;
+    const auto directions = directions_of(table.lobes);
+    const double cost = options.mirrors == 0
+                            ? search::exact_score(options.problem(), directions).cost(objective)
+                            : emitted_instructions(table.bands.front()) +
+                                  objective.condition_weight * std::log2(table.condition.front());
+    return {cost, search::turning_cost(directions)};
+}
+
+/// After a search that found nothing, by what ended it.
+std::string next_step(const SearchOptions& options, const search::Progress& progress) {
+    std::string step = stop_requested ? "it was told to stop: let it run longer"
+                       : options.generations > 0 && progress.generation >= options.generations
+                           ? "raise --generations"
+                       : options.seconds > 0 ? "raise --seconds"
+                                             : "raise --stall";
+    step += ", change --seed, or raise --condition-cap";
+    if (options.mirrors > 0)
+        step += ", or take another number of --mirrors: not every one has orbits that make up a band";
+    return step + (options.is_plain ? ", or drop --plain" : "");
+}
+
 void run(const SearchOptions& options) {
     check_use(options);
     check_is_writable("--out", options.out);
@@ -230,6 +261,8 @@ void run(const SearchOptions& options) {
     const search::Problem problem = options.problem();
     const std::optional<LobeTable> start = read_start(options);
     if (!options.archive.empty()) read_front(options.archive, options.use(), problem);  // complains early
+    TableOutput output(options.out, options.use(), options.objective.condition_cap,
+                       [&](const LobeTable& table) { return cost_of(table, options); });
     const search::SearchSettings settings = settings_of(options, problem, start);
 
     const bool is_watched = isatty(STDERR_FILENO) != 0;
@@ -245,9 +278,9 @@ void run(const SearchOptions& options) {
         if (!is_worth_saving || progress.seconds < saved_at + kSecondsBetweenSaves) return;
         saved_at = progress.seconds;
         try {
-            write_lobe_table(options.out, table_of(options, start, solution, progress.generation));
+            output.offer(table_of(options, start, solution, progress.generation));
         } catch (const UserError& error) {  // the best stays in memory and is written again at the end
-            fmt::print(stderr, "{}warning: {}\n", is_watched ? "\r\033[K" : "", error.what());
+            fmt::print(stderr, "{}warning: {}\n", is_watched ? "\r\033[K" : "", program::shown(error.what()));
         }
     };
 
@@ -255,19 +288,16 @@ void run(const SearchOptions& options) {
     const search::SearchResult result = find_lobes(options, problem, settings, observer);
     fmt::print(stderr, "{}{}\n", is_watched ? "\r\033[K" : "", search::progress_text(result.progress));
     if (!result.best.score.is_allowed(options.objective)) {
-        const char* next_step =
-            options.mirrors > 0
-                ? "raise --generations or --seconds, change --seed, or take another number of "
-                  "--mirrors: not every one has orbits that make up a band"
-            : options.is_plain ? "raise --generations, change --seed, or drop --plain"
-                               : "raise --generations or change --seed";
-        throw UserError(fmt::format("--{} {}: found no lobes of condition {:g} or less in {} generations; {}",
+        throw UserError(fmt::format("--{} {}: found no lobes of condition {} or less in {} generations; {}",
                                     options.use().field, options.use().value, options.objective.condition_cap,
-                                    result.progress.generation, next_step));
+                                    result.progress.generation, next_step(options, result.progress)));
     }
-    LobeTable best = start && found_in == 0 ? *start : table_of(options, start, result.best, found_in);
-    best.use = options.use();
-    write_lobe_table(options.out, best);
+    // The start stays as it was, unless the table is for something else: then its command does not make this.
+    const bool is_start = start && found_in == 0 && start->use.role == options.use().role;
+    const LobeTable best = is_start ? *start : table_of(options, start, result.best, std::max(found_in, 1));
+    if (!output.offer(best))
+        fmt::print(stderr, "{}: kept as it was: the table there is as good as what was found, or better\n",
+                   program::shown(options.out));
     if (!options.archive.empty()) {
         const std::string command = canonical_command(options, start, result.progress.generation);
         const OutputLock lock(options.archive);  // another search may have added to it meanwhile
@@ -276,7 +306,7 @@ void run(const SearchOptions& options) {
             search::add_to_front(front, FoundSet{solution, command});
         write_front(options.archive, options.use(), front);
     }
-    fmt::print("{}\n", options.out);
+    fmt::print("{}\n", program::shown_on_stdout(options.out));
 }
 
 }  // namespace
@@ -287,21 +317,25 @@ void add_search_command(CLI::App& app) {
     const auto options = std::make_shared<SearchOptions>();
     SearchOptions& o = *options;
     CLI::Option_group* use = command->add_option_group("use", "what the lobes are for");
-    use->add_option("--order", o.order, "number of bands that share the lobes, 3 to 20");
-    CLI::Option* band = use->add_option("--band", o.band, "one band with lobes of its own, 2 to 19");
+    program::add_number(*use, "--order", o.order,
+                        program::from_to(kernels::kSmallestLobeOrder, kLargestOrder),
+                        "number of bands that share the lobes");
+    CLI::Option* band = program::add_number(*use, "--band", o.band, program::from_to(2, kLargestOrder - 1),
+                                            "one band with lobes of its own");
     use->require_option(1);
-    command->add_option("--out", o.out, "table to write; rewritten whenever a better one is found")
+    command
+        ->add_option("--out", o.out,
+                     "table to write whenever a better one is found; one that is there and better stays")
+        ->check(program::not_empty())
         ->required();
     command->add_option("--for", o.role,
                         "what the table serves: shared or rotate_zhf (a kernel that needs a lower cap on the "
                         "condition), band or band_mirrored (default: shared with --order, band with --band, "
                         "band_mirrored with --mirrors)");
-    command->add_option("--seed", o.seed, "of all randomness")->capture_default_str();
-    command
-        ->add_option("--generations", o.generations,
-                     "to run; with neither these nor --seconds: until none improves for --stall")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--seconds", o.seconds, "after which to stop")->check(CLI::PositiveNumber);
+    program::add_number(*command, "--seed", o.seed, {}, "of all randomness")->capture_default_str();
+    program::add_number(*command, "--generations", o.generations, program::at_least(1),
+                        "to run; with neither these nor --seconds: until none improves for --stall");
+    program::add_number(*command, "--seconds", o.seconds, program::above(0, 1e9), "after which to stop");
     CLI::Option* resume =
         command->add_option("--resume", o.resume, "table to start from")->check(CLI::ExistingFile);
     command->add_flag("--plain", o.is_plain,
@@ -310,64 +344,56 @@ void add_search_command(CLI::App& app) {
     CLI::Option* aligned = command->add_flag(
         "--aligned", o.is_aligned,
         "start from lobes on the equator and on y = 0 in turns, as from order 12 on it always does");
+    program::add_numbers(*command, "--zero-bands", o.zero_bands, program::from_to(1, 30),
+                         "candidates lie at the Legendre zeros of these bands (default: of all that share "
+                         "the lobes; of a band above 8 its own; of one below all up to it)");
+    program::add_numbers(
+        *command, "--rings", o.rings, program::from_to(1, 60),
+        "candidates off the equator lie at phi = k pi / d for these d (default: by the bands)");
     command
-        ->add_option("--zero-bands", o.zero_bands,
-                     "candidates lie at the Legendre zeros of these bands (default: of all that share the "
-                     "lobes; of a band above 8 its own; of one below all up to it)")
-        ->check(CLI::Range(1, 30));
-    command
-        ->add_option("--rings", o.rings,
-                     "candidates off the equator lie at phi = k pi / d for these d (default: by the bands)")
-        ->check(CLI::Range(1, 60));
-    command->add_option("--archive", o.archive,
-                        "JSON file for the sets that no other beats in nonzeros, multiplications and "
-                        "condition at once; those of earlier searches stay unless beaten");
-    CLI::Option* mirrors =
-        command
-            ->add_option(
-                "--mirrors", o.mirrors,
-                "seek lobes of a band that are closed under so many mirrors through the z axis, by the "
-                "instructions of their emitted product")
-            ->check(CLI::Range(1, search::kMostMirrors));
+        ->add_option("--archive", o.archive,
+                     "JSON file for the sets that no other beats in nonzeros, multiplications and condition "
+                     "at once; those of earlier searches stay unless beaten")
+        ->check(program::not_empty());
+    CLI::Option* mirrors = program::add_number(
+        *command, "--mirrors", o.mirrors, program::from_to(1, search::kMostMirrors),
+        "seek lobes of a band that are closed under so many mirrors through the z axis, by the instructions "
+        "of their emitted product");
     mirrors->needs(band);
     aligned->excludes(command->get_option("--plain"))->excludes(mirrors);
     CLI::Option* walk = command->add_flag(
         "--walk", o.walks,
         "seek lobes near those of --resume, anywhere on the sphere: give up some zeros, find others");
     walk->needs(resume)->excludes(aligned);
-    command->add_option("--islands", o.islands, "populations that breed apart, or walkers")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--population", o.population, "of an island (default: 6, or 500 with --plain)")
-        ->check(CLI::Range(4, 1000000));
-    command
-        ->add_option("--stall", o.stall, "generations without improvement (default: 10, or 50 with --plain)")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--elite", o.elite, "individuals that survive")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 4));
-    command
-        ->add_option("--local-moves", o.moves,
-                     "swaps tried on every child (default: 400 times the square of the lobes; 100 times with "
-                     "--mirrors), or moves of a walker in a generation (default: about a second of them)")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--crossover", o.crossover, "fraction of children with two parents")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--mutation", o.mutation, "rate of an angle (default: one over the number of angles)")
-        ->check(CLI::Range(0.0, 1.0));
-    command
-        ->add_option("--multiplication-weight", o.objective.multiplication_weight,
-                     "of a multiplication beside a nonzero")
+    program::add_number(*command, "--islands", o.islands, program::from_to(1, 1024),
+                        "populations that breed apart, or walkers")
         ->capture_default_str();
-    command
-        ->add_option("--condition-weight", o.objective.condition_weight,
-                     "of a doubling of the worst condition beside a nonzero")
+    program::add_number(*command, "--population", o.population, program::from_to(4, 1000000),
+                        "of an island (default: 6, or 500 with --plain)");
+    program::add_number(*command, "--stall", o.stall, program::at_least(1),
+                        "generations without improvement (default: 10, or 50 with --plain)");
+    program::add_number(*command, "--elite", o.elite, program::from_to(1, 4), "individuals that survive")
         ->capture_default_str();
-    command
-        ->add_option("--condition-cap", o.objective.condition_cap, "largest condition of a band, at most 50")
-        ->capture_default_str()
-        ->check(CLI::Range(1.0, kConditionCap));
+    program::add_number(
+        *command, "--local-moves", o.moves, program::at_least(1),
+        "swaps tried on every child (default: 400 times the square of the lobes; 100 times with --mirrors), "
+        "or moves of a walker in a generation (default: about a second of them)");
+    program::add_number(*command, "--crossover", o.crossover, program::from_to(0.0, 1.0),
+                        "fraction of children with two parents")
+        ->capture_default_str();
+    program::add_number(*command, "--mutation", o.mutation, program::above(0, 1),
+                        "rate of an angle (default: one over the number of angles)");
+    constexpr double kMostWeight = 1000;
+    program::add_number(*command, "--multiplication-weight", o.objective.multiplication_weight,
+                        program::from_to(0.0, kMostWeight), "of a multiplication beside a nonzero")
+        ->capture_default_str();
+    program::add_number(*command, "--condition-weight", o.objective.condition_weight,
+                        program::from_to(0.0, kMostWeight),
+                        "of a doubling of the worst condition beside a nonzero")
+        ->capture_default_str();
+    program::add_number(*command, "--condition-cap", o.objective.condition_cap,
+                        program::from_to(1.0, kConditionCap), "largest condition of a band")
+        ->capture_default_str();
     for (const char* name : {"--plain", "--on-grid", "--archive", "--population", "--elite", "--crossover",
                              "--mutation", "--multiplication-weight"})
         mirrors->excludes(command->get_option(name));

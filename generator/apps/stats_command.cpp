@@ -12,6 +12,8 @@
 #include "kernels/order_kernels.hpp"
 #include "kernels/planner.hpp"
 #include "kernels/rotations.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
 
 namespace zonal {
 
@@ -136,9 +138,14 @@ void print_table(const Json& stats) {
 void add_stats_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("stats", "count the operations of every kernel of an order");
     const auto options = std::make_shared<StatsOptions>();
-    command->add_option("--order", options->order, "number of bands")->required();
-    command->add_option("--table", options->table,
-                        "lobe table (default: generator/tables/shared/orderNN.json)");
+    program::add_number(*command, "--order", options->order, program::from_to(kSmallestOrder, kLargestOrder),
+                        "number of bands")
+        ->required();
+    command
+        ->add_option("--table", options->table,
+                     "lobe table to take for what its field `for` names (default: those of the folder of "
+                     "tables)")
+        ->check(program::not_empty());
     command->add_flag("--json", options->as_json, "print JSON");
     command->callback([options] {
         const Json stats = to_json(build_order_kernels(options->order, options->table));

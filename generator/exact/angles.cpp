@@ -36,7 +36,11 @@ const auto arc_cosine = [](auto& c) {
 };
 const auto pi = [](auto& c) { x3::_val(c) = exact::pi(); };
 const auto decimal = [](auto& c) {
-    x3::_val(c) = Real{std::string(x3::_attr(c).begin(), x3::_attr(c).end())};
+    try {
+        x3::_val(c) = Real{std::string(x3::_attr(c).begin(), x3::_attr(c).end())};
+    } catch (const std::runtime_error&) {
+        x3::_pass(c) = false;
+    }
 };
 
 const auto parenthesised = '(' >> sum >> ')';
@@ -53,6 +57,11 @@ BOOST_SPIRIT_DEFINE(sum, product, factor)
 }  // namespace
 
 Real evaluate_closed_form(std::string_view text) {
+    constexpr std::size_t kMostCharacters = 500;  // the grammar calls itself for every bracket
+    if (text.size() > kMostCharacters)
+        throw std::invalid_argument("cannot read \"" + std::string(text.substr(0, 20)) + "…\": it has " +
+                                    std::to_string(text.size()) + " characters, more than " +
+                                    std::to_string(kMostCharacters));
     Real value;
     auto place = text.begin();
     if (!x3::phrase_parse(place, text.end(), grammar::sum, x3::blank, value) || place != text.end())

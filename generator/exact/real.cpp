@@ -1,9 +1,12 @@
 #include "exact/real.hpp"
 
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <new>
 #include <ostream>
+#include <stdexcept>
+#include <string_view>
 #include <type_traits>
 
 namespace zonal::exact {
@@ -11,6 +14,32 @@ namespace {
 
 using Number = boost::multiprecision::cpp_bin_float_50;
 static_assert(std::is_trivially_destructible_v<Number>);
+
+/// Boost takes time and memory in proportion to the exponent, and reads more than decimals.
+void check_decimal(std::string_view text) {
+    constexpr std::size_t kMostCharacters = 1000, kMostDigitsOfExponent = 4;
+    const auto digits = [&] {
+        const std::size_t count = std::min(text.find_first_not_of("0123456789"), text.size());
+        text.remove_prefix(count);
+        return count;
+    };
+    const auto takes = [&](std::string_view some) {
+        const bool is_there = !text.empty() && some.find(text.front()) != std::string_view::npos;
+        if (is_there) text.remove_prefix(1);
+        return is_there;
+    };
+    bool is_decimal = text.size() <= kMostCharacters;
+    takes("+-");
+    std::size_t count = digits();
+    if (takes(".")) count += digits();
+    if (takes("eE")) {
+        takes("+-");
+        const std::size_t exponent = digits();
+        is_decimal = is_decimal && exponent >= 1 && exponent <= kMostDigitsOfExponent;
+    }
+    if (!is_decimal || count == 0 || !text.empty())
+        throw std::runtime_error("not a decimal with an exponent of at most four digits");
+}
 
 }  // namespace
 
@@ -34,7 +63,10 @@ struct Real::Access {
 
 Real::Real(long long value) { Access::create(*this, value); }
 Real::Real(double value) { Access::create(*this, value); }
-Real::Real(const char* decimal) { Access::create(*this, decimal); }
+Real::Real(const char* decimal) {
+    check_decimal(decimal);
+    Access::create(*this, decimal);
+}
 Real::Real(const Real& other) noexcept { Access::create(*this, Access::of(other)); }
 Real& Real::operator=(const Real& other) noexcept {
     Access::of(*this) = Access::of(other);

@@ -19,7 +19,8 @@ class Real {
     Real(T value) : Real(static_cast<long long>(value)) {}
     Real(long long value);
     Real(double value);
-    /// A decimal, with an exponent or without. Throws std::runtime_error where it is none.
+    /// A decimal, with an exponent of at most four digits or without. Throws std::runtime_error where it is
+    /// none.
     explicit Real(const char* decimal);
     explicit Real(const std::string& decimal) : Real(decimal.c_str()) {}
     Real(const Real& other) noexcept;

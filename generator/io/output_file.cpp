@@ -25,19 +25,32 @@ struct Unwritable {
 
 [[noreturn]] void fail(int error) { throw Unwritable{std::generic_category().message(error)}; }
 
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
+
+/// Names under it stand for open files and the system's state: a file renamed there, or onto what such a name
+/// leads to, would be lost to who holds it open.
+void check_is_no_system_name(const fs::path& path) {
+    const fs::path folder = fs::weakly_canonical(fs::absolute(folder_of(path))).relative_path();
+    if (folder.empty()) return;
+    if (*folder.begin() == "proc" || *folder.begin() == "sys")
+        throw Unwritable{"it is not a regular file, but a name of the system"};
+}
+
 /// The file behind the links of `path`; the last link may name a file that is not there yet.
 fs::path behind_links(fs::path path) {
+    if (path.empty()) throw Unwritable{"the name is empty"};
     for (int links = 0; fs::is_symlink(fs::symlink_status(path)); ++links) {
+        check_is_no_system_name(path);
         if (links == kMostLinks) fail(ELOOP);
         path = path.parent_path() / fs::read_symlink(path);
     }
+    check_is_no_system_name(path);
     return path;
 }
 
-fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
-
-/// Throws unless a file could be put at `target`, as far as that is known without trying.
-void check_target(const fs::path& target) {
+/// The folder that is there already of those that lead to `target`. Throws unless a file could be put there,
+/// as far as that is known without trying.
+fs::path check_target(const fs::path& target) {
     struct stat there {};
     if (stat(target.c_str(), &there) == 0) {
         if (S_ISDIR(there.st_mode)) fail(EISDIR);
@@ -53,6 +66,7 @@ void check_target(const fs::path& target) {
     }
     if (!S_ISDIR(there.st_mode)) fail(ENOTDIR);
     if (access(folder.c_str(), W_OK | X_OK) != 0) fail(errno);
+    return folder;
 }
 
 /// The mode of the file at `target`, or the one a new file gets.
@@ -131,7 +145,10 @@ void write_file_atomically(const fs::path& path, const std::string& content) {
 }
 
 void check_is_writable(const std::string& option, const fs::path& path) {
-    or_complain(option + ' ' + path.string(), [&] { check_target(behind_links(path)); });
+    or_complain(option + ' ' + path.string(), [&] {
+        const fs::path folder = check_target(behind_links(path));
+        const TemporaryFile trial(folder / "trial");
+    });
 }
 
 bool is_same_file(const fs::path& a, const fs::path& b) {

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "io/input_file.hpp"
 #include "io/output_file.hpp"
 #include "io/user_error.hpp"
 #include "lobes/table_check.hpp"
@@ -17,11 +16,11 @@ namespace zonal {
 namespace {
 
 std::string read_bytes(const std::filesystem::path& path, const TableComplaints& complaints) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) complaints.missing();
-    std::ostringstream bytes;
-    bytes << file.rdbuf();
-    return bytes.str();
+    try {
+        return read_file(path);
+    } catch (const Unreadable& error) {
+        complaints.unreadable(error.what());
+    }
 }
 
 std::string sha256_hex(const std::string& bytes) {
@@ -41,7 +40,7 @@ LobeTable read(const std::filesystem::path& path, const LobeUse& use, bool is_fo
     LobeTable table = table_of_json(bytes, use, complaints);
     table.sha256 = sha256_hex(bytes);
     if (!is_for_any && table.use.role != use.role)
-        complaints.complain("for", '"' + name_of(table.use.role) + '"', '"' + name_of(use.role) + '"');
+        complaints.of_another_use("for", '"' + name_of(table.use.role) + '"', '"' + name_of(use.role) + '"');
     check_table(table, condition_cap, complaints);
     return table;
 }
@@ -66,7 +65,7 @@ LobeTable read_lobe_table(const std::filesystem::path& path, const LobeUse& use,
     return read(path, use, false, condition_cap);
 }
 
-LobeTable read_lobes_to_start_from(const std::filesystem::path& path, const LobeUse& use) {
+LobeTable read_lobe_table_of_any_role(const std::filesystem::path& path, const LobeUse& use) {
     return read(path, use, true, kConditionCap);
 }
 

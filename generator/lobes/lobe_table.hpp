@@ -41,8 +41,8 @@ void factorize(LobeTable& table);
 LobeTable read_lobe_table(const std::filesystem::path& path, const LobeUse& use,
                           double condition_cap = kConditionCap);
 
-/// The same for lobes to start from: of that order or band, whatever they are for.
-LobeTable read_lobes_to_start_from(const std::filesystem::path& path, const LobeUse& use);
+/// The same of that order or band, whatever it is for.
+LobeTable read_lobe_table_of_any_role(const std::filesystem::path& path, const LobeUse& use);
 
 /// Writes under a temporary name beside `path`, then renames: a failed run leaves no half file. Precondition:
 /// the table is factorized and no band is singular.

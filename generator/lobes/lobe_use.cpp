@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -40,8 +41,23 @@ std::filesystem::path LobeUse::table_path() const {
     return std::filesystem::path(name_of(role)) / fmt::format("{}{:02d}.json", field, value);
 }
 
+bool LobeUse::is_published() const {
+    constexpr std::array kOrdersOfRotateZhf{8, 9, 10, 11, 12, 13, 16};
+    switch (role) {
+        case TableRole::shared:
+            return value >= 3 && value <= 20;
+        case TableRole::rotate_zhf:
+            return std::ranges::count(kOrdersOfRotateZhf, value) > 0;
+        case TableRole::band:
+            return value >= 2 && value <= 18;
+        case TableRole::band_mirrored:
+            return value >= 4 && value <= 18;
+    }
+    return false;
+}
+
 std::string LobeUse::options() const {
-    const char* const more = role == TableRole::rotate_zhf      ? " --for rotate_zhf"
+    const char* const more = role == TableRole::rotate_zhf      ? " --for rotate_zhf --condition-cap 20"
                              : role == TableRole::band_mirrored ? " --mirrors 1"
                                                                 : "";
     return fmt::format("--{} {}{}", field, value, more);

@@ -34,7 +34,9 @@ struct LobeUse {
     int lobe_count() const { return 2 * bands.back() + 1; }
     /// Where its table lies inside a tables folder: shared/orderNN.json, band_mirrored/bandLL.json.
     std::filesystem::path table_path() const;
-    /// Options of `search` that find such lobes: "--order 4", "--order 8 --for rotate_zhf".
+    /// Whether the tables that come with the program have one, so that it is an error where it is missing.
+    bool is_published() const;
+    /// Options of `search` that find such lobes: "--order 4", "--band 7 --mirrors 1".
     std::string options() const;
 };
 

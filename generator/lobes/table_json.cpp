@@ -4,30 +4,28 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "exact/angles.hpp"
+#include "io/json_text.hpp"
 
 namespace zonal {
 namespace {
 
 using exact::Real;
-using Json = nlohmann::json;
 
 class Reader {
   public:
     Reader(const std::string& text, const TableComplaints& complaints) : complaints_(complaints) {
         try {
-            json_ = Json::parse(text);
-        } catch (const Json::parse_error& error) {
-            complaints_.complain("JSON text",
-                                 fmt::format("a break at byte {} of {}", error.byte, text.size()),
-                                 "a whole table (this one may be truncated)");
+            json_ = parse_json(text);
+        } catch (const WrongJson& error) {
+            complaints_.complain("JSON text", error.what(), "a whole table (this one may be truncated)");
         }
     }
 
     LobeTable read(const LobeUse& use) const {
+        check_use(use);
         LobeTable table;
         table.use = use;
         table.seed = field<std::uint64_t>("seed", "a non-negative integer");
@@ -39,8 +37,6 @@ class Reader {
             "directions", "a list of [x, y, z], each a decimal in quotes");
         const auto angles =
             field<std::vector<std::array<std::string, 2>>>("angles", "a list of [theta, phi], each a text");
-        const int value = field<int>(use.field.c_str(), "an integer");
-        if (value != use.value) complain(use.field, std::to_string(value), std::to_string(use.value));
         table.use.role = role(use);
         check_count("directions", directions.size(), use.lobe_count());
         check_count("angles", angles.size(), use.lobe_count());
@@ -61,12 +57,7 @@ class Reader {
 
     template <class T>
     T field(const char* name, const char* wanted) const {
-        if (!json_.is_object() || !json_.contains(name)) complain(name, "nothing", wanted);
-        try {
-            return json_.at(name).get<T>();
-        } catch (const Json::exception&) {
-            complain(name, json_.at(name).dump().substr(0, 80), wanted);
-        }
+        return field_as<T>(json_, name, [&](const std::string& found) { complain(name, found, wanted); });
     }
 
     TableRole role(const LobeUse& use) const {
@@ -76,6 +67,17 @@ class Reader {
         const std::optional<TableRole> role = role_named(name);
         if (!role || !use.may_be(*role)) complain("for", '"' + name + '"', wanted);
         return *role;
+    }
+
+    /// Before all else: of a table for something else nothing is amiss.
+    void check_use(const LobeUse& use) const {
+        const char* const other = use.field == "order" ? "band" : "order";
+        if (json_.is_object() && !json_.contains(use.field) && json_.contains(other))
+            complaints_.of_another_use(other, shown_value(json_.at(other)),
+                                       fmt::format("a table of {} {}", use.field, use.value));
+        const int value = field<int>(use.field.c_str(), "an integer");
+        if (value != use.value)
+            complaints_.of_another_use(use.field, std::to_string(value), std::to_string(use.value));
     }
 
     void check_count(const char* name, std::size_t found, std::size_t wanted) const {

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -16,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "program/numbers.hpp"
+#include "program/program.hpp"
 #include "zonal/basis.hpp"
 #include "zonal/eigen.hpp"
 #include "zonal/environment_map.hpp"
@@ -42,17 +43,11 @@ struct Options {
 
 zonal::RotationMatrix<double> rotation_of(const Options& options) {
     const Eigen::Vector3d axis(options.axis[0], options.axis[1], options.axis[2]);
-    if (!axis.allFinite() || !(axis.norm() > 0)) {
+    if (axis.isZero(0)) {
         throw zonal::Error({.field = "--axis",
-                            .found = fmt::format("{}, {}, {}", axis.x(), axis.y(), axis.z()),
-                            .wanted = "a finite vector that is not zero",
+                            .found = "0 0 0",
+                            .wanted = "a vector that is not zero",
                             .next_step = "give three numbers, for instance --axis 1 2 3"});
-    }
-    if (!std::isfinite(options.angle_degrees)) {
-        throw zonal::Error({.field = "--angle-degrees",
-                            .found = fmt::format("{}", options.angle_degrees),
-                            .wanted = "a finite angle",
-                            .next_step = "give a number, for instance --angle-degrees 70"});
     }
     const double angle_rad = options.angle_degrees * std::numbers::pi / 180.0;
     return zonal::RotationMatrix<double>(Eigen::AngleAxisd(angle_rad, axis.stableNormalized()));
@@ -143,24 +138,15 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app("Rotates an environment map by an SH kernel and compares with direct evaluation.",
                  "zonal-rotate-map");
-    app.add_option("--order", options.order, "number of SH bands")->capture_default_str();
+    zonal::program::add_number(app, "--order", options.order, zonal::program::at_least(1),
+                               "number of SH bands")
+        ->capture_default_str();
     app.add_option("--map", options.map, "latitude-longitude map, OpenEXR or Radiance .hdr")->required();
-    app.add_option("--axis", options.axis, "axis of the rotation: x y z, any length")
+    zonal::program::add_numbers(app, "--axis", options.axis, {}, "axis of the rotation: x y z, any length")
         ->expected(3)
         ->capture_default_str();
-    app.add_option("--angle-degrees", options.angle_degrees, "angle of the rotation")->capture_default_str();
+    zonal::program::add_number(app, "--angle-degrees", options.angle_degrees, {}, "angle of the rotation")
+        ->capture_default_str();
     app.add_option("--out", options.out, "folder for the pictures")->required();
-    try {
-        app.parse(argc, argv);
-        run(options);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& problem) {
-        fmt::print(stderr, "error: {}; run with --help for the options\n", problem.what());
-        return 1;
-    } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n", problem.what());
-        return 1;
-    }
-    return 0;
+    return zonal::program::run(app, argc, argv, [&] { run(options); });
 }

@@ -15,7 +15,7 @@ template <class T>
 void expect_within_bounds(int order) {
     constexpr bool kIsFloat = std::is_same_v<T, float>;
     const OrderKernels& kernels = built_order(order);
-    const auto bounds = published_bounds(order, kernels.tables);
+    const auto bounds = published_bounds(order, kernels.tables, kernels.kernels);
     std::map<std::string, double> excess;
     for (const auto& [name, bound] : bounds) excess[name] = std::stod(bound.excess_text);
     const int random_count = order <= 10 ? 300 : 30;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
@@ -24,6 +23,8 @@
 #include "batch/targets.hpp"
 #include "contestants.hpp"
 #include "peak.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
 #include "support/accuracy.hpp"
 #include "support/counting.hpp"
 #include "support/hard_cases.hpp"
@@ -389,33 +390,36 @@ int main(int argc, char** argv) {
     CLI::App app{"Times batches and single calls of every compiled order, with the error beside every time."};
     zonal::bench::Options options;
     options.orders.assign(zonal::compiled_orders().begin(), zonal::compiled_orders().end());
-    app.add_option("--orders", options.orders, "orders to time")->delimiter(',');
+    using zonal::program::add_number;
+    const auto blocks = zonal::program::from_to<std::size_t>(1, std::size_t{1} << 30U);
+    zonal::program::add_numbers(app, "--orders", options.orders, zonal::program::at_least(1),
+                                "orders to time")
+        ->delimiter(',');
     app.add_option("--workloads", options.workloads)->delimiter(',')->capture_default_str();
     app.add_option("--places", options.places, "L2, memory")->delimiter(',')->capture_default_str();
     app.add_option("--types", options.types, "float, double")->delimiter(',')->capture_default_str();
     app.add_option("--target", options.target, "instruction set of the packs, default the best");
-    app.add_option("--rounds", options.rounds)->check(CLI::PositiveNumber)->capture_default_str();
-    app.add_option("--seconds", options.seconds, "shortest time of a run in cache")->capture_default_str();
-    app.add_option("--l2-kib", options.l2_kib, "bytes of a workload in cache")->capture_default_str();
-    app.add_option("--memory-mib", options.memory_mib,
-                   "bytes of a workload in memory: several times the last cache")
+    add_number(app, "--rounds", options.rounds, zonal::program::at_least(1), "of every workload")
         ->capture_default_str();
-    app.add_option("--streamed-mib", options.streamed_mib,
-                   "batches larger than this are written past the caches")
+    add_number(app, "--seconds", options.seconds, zonal::program::above(0, 1e6),
+               "shortest time of a run in cache")
+        ->capture_default_str();
+    add_number(app, "--l2-kib", options.l2_kib, blocks, "bytes of a workload in cache")
+        ->capture_default_str();
+    add_number(app, "--memory-mib", options.memory_mib, blocks,
+               "bytes of a workload in memory: several times the last cache")
+        ->capture_default_str();
+    add_number(app, "--streamed-mib", options.streamed_mib, blocks,
+               "batches larger than this are written past the caches")
         ->capture_default_str();
     app.add_option("--json", options.json, "also write the results to this file");
-    CLI11_PARSE(app, argc, argv);
-    // Every call of the library runs the group registered at that time, in random order.
-    std::vector<std::string> arguments{"zonal-bench", "--benchmark_enable_random_interleaving=true"};
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    int count = static_cast<int>(pointers.size());
-    benchmark::Initialize(&count, pointers.data());
-    try {
+    return zonal::program::run(app, argc, argv, [&] {
+        // Every call of the library runs the group registered at that time, in random order.
+        std::vector<std::string> arguments{"zonal-bench", "--benchmark_enable_random_interleaving=true"};
+        std::vector<char*> pointers;
+        for (std::string& argument : arguments) pointers.push_back(argument.data());
+        int count = static_cast<int>(pointers.size());
+        benchmark::Initialize(&count, pointers.data());
         zonal::bench::run(options);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    });
 }

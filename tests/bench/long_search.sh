@@ -22,6 +22,7 @@ nonzeros_of() { sed -n 's/^  "nonzeros": \([0-9]*\).*/\1/p' "$1"; }
 
 search() { # OPTIONS...: leaves its table in $best/found.json and says what it found
   local found least
+  rm -f "$best/found.json" # of another order: a search overwrites no other table
   if found=$("$gen" search "$use" "$number" "$@" --seed "$round" --seconds "$time" --out "$best/found.json" 2>&1 >"$best/path"); then
     least=$(printf '%s\n' "$(nonzeros_of "$best/found.json")" "$(nonzeros_of "$table")" | sort -n | head -1)
     echo "${use#--} $number: $found [${*//$best\//} --seed $round] best $least, goal $goal"

@@ -14,15 +14,17 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for_each.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "bounds/published.hpp"
 #include "io/output_file.hpp"
 #include "kernels/order_kernels.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
 #include "support/graph_kernels.hpp"
 #include "support/many_turns.hpp"
 #include "support/worst_signal.hpp"
@@ -183,6 +185,16 @@ void raise_by_turns(nlohmann::ordered_json& entries, const OrderKernels& order,
     }
 }
 
+nlohmann::ordered_json entry_of(const std::string& kernel, int order, const std::string& table,
+                                const emit::Bound& bound) {
+    return {{"kernel", kernel},
+            {"order", order},
+            {"table", table},
+            {"float", bound.float_text},
+            {"double", bound.double_text},
+            {"excess", bound.excess_text}};
+}
+
 nlohmann::ordered_json measure_order(int n, const Options& options) {
     OrderKernels order = build_order_kernels(n, {});
     const std::vector<graph::Kernel> all = order.kernels;
@@ -195,12 +207,10 @@ nlohmann::ordered_json measure_order(int n, const Options& options) {
         if (!kernel.has_bound) continue;
         const std::string table =
             kernel.needs_lobes ? order.tables.rotate_zhf->table.short_hash() : std::string{};
-        entries.push_back({{"kernel", kernel.full_name()},
-                           {"order", n},
-                           {"table", table},
-                           {"float", rounded_up(single.at(kernel.full_name()))},
-                           {"double", rounded_up(twice.at(kernel.full_name()))},
-                           {"excess", fmt::format("{:.2f}", excess.at(kernel.full_name()))}});
+        const std::string name = kernel.full_name();
+        entries.push_back(entry_of(name, n, table,
+                                   {rounded_up(single.at(name)), rounded_up(twice.at(name)),
+                                    fmt::format("{:.2f}", excess.at(name))}));
     }
     raise_by_turns(entries, order, all, options);
     return entries;
@@ -218,13 +228,11 @@ nlohmann::ordered_json raised_order(int n, nlohmann::ordered_json entries, const
 /// What the file says, if there is one, but for orders of which every kernel is measured anew.
 std::map<int, nlohmann::ordered_json> kept_bounds(const Options& options, const std::vector<int>& orders) {
     std::map<int, nlohmann::ordered_json> kept;
-    std::ifstream stream(options.out);
-    if (!stream) return kept;
-    const auto file = nlohmann::ordered_json::parse(stream);
-    for (const auto& entry : file.at("bounds")) {
-        const int order = entry.at("order").get<int>();
-        const bool is_measured = std::ranges::find(orders, order) != orders.end();
-        if (!is_measured || !options.kernels.empty() || options.only_turns) kept[order].push_back(entry);
+    if (!std::filesystem::exists(options.out)) return kept;
+    for (const MeasuredBound& bound : read_bounds(options.out)) {
+        const bool is_measured = std::ranges::find(orders, bound.order) != orders.end();
+        if (!is_measured || !options.kernels.empty() || options.only_turns)
+            kept[bound.order].push_back(entry_of(bound.kernel, bound.order, bound.table, bound.bound));
     }
     return kept;
 }
@@ -258,6 +266,7 @@ void raise_to_lower_orders(std::map<int, nlohmann::ordered_json>& measured) {
 }
 
 void run(const Options& options) {
+    check_is_writable("--out", options.out);
     std::vector<int> orders = options.orders;
     std::map<int, nlohmann::ordered_json> measured;
     if (orders.empty())
@@ -301,24 +310,20 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
     CLI::App app{"Measures the error bounds that generated banners publish."};
     zonal::Options options;
-    app.add_option(
-        "--rotations", options.rotations,
+    namespace program = zonal::program;
+    program::add_number(
+        app, "--rotations", options.rotations, program::from_to(1, 1000000),
         "random rotations of each order and type (default: 10000 at order 2, 500 to 6, 150 to 10, 40 above)");
-    app.add_option("--orders", options.orders, "to measure anew in the file that --out names (default: all)")
-        ->check(CLI::Range(zonal::kSmallestOrder, zonal::kLargestOrder));
+    program::add_numbers(app, "--orders", options.orders,
+                         program::from_to(zonal::kSmallestOrder, zonal::kLargestOrder),
+                         "to measure anew in the file that --out names (default: all)");
     app.add_option("--kernels", options.kernels, "to measure anew, as banners call them (default: all)");
     app.add_flag(
         "--only-turns", options.only_turns,
         "many random turns alone: raises what the file says where they need it, for kernels that did "
         "not change");
-    app.add_option("--seed", options.seed)->capture_default_str();
-    app.add_option("--out", options.out, "the file to write")->required();
-    CLI11_PARSE(app, argc, argv);
-    try {
-        zonal::run(options);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    program::add_number(app, "--seed", options.seed, {}, "of all random rotations and signals")
+        ->capture_default_str();
+    app.add_option("--out", options.out, "the file to write")->check(program::not_empty())->required();
+    return program::run(app, argc, argv, [&] { zonal::run(options); });
 }

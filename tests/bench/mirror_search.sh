@@ -18,6 +18,7 @@ search() { # BAND MIRRORS OPTIONS...
   shift 2
   table=$(printf '%s/band%02d.json' "$best" "$band")
   record=$best/$band.best
+  rm -f "$best/new.json" # of another band: a search overwrites no other table
   found=$("$gen" search --band "$band" --mirrors "$mirrors" --seconds "$seconds" "$@" --out "$best/new.json" \
     2>&1 >"$best/path") || {
     printf 'band %d, %d mirrors: %s [%s]\n' "$band" "$mirrors" "$(tail -n 1 <<<"$found")" "$*"

@@ -3,12 +3,13 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "program/numbers.hpp"
+#include "program/program.hpp"
 #include "support/accuracy.hpp"
 #include "support/kernels.hpp"
 
@@ -302,13 +303,8 @@ int main(int argc, char** argv) {
     std::string stats;
     double seconds = 0.01;
     app.add_option("--stats", stats, "what `zonal-gen stats --json` printed, to show counts as well");
-    app.add_option("--seconds", seconds, "shortest time of one run")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    try {
-        zonal::run(stats, seconds);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    zonal::program::add_number(app, "--seconds", seconds, zonal::program::above(0, 1e6),
+                               "shortest time of one run")
+        ->capture_default_str();
+    return zonal::program::run(app, argc, argv, [&] { zonal::run(stats, seconds); });
 }

@@ -12,6 +12,7 @@ trap 'rm -rf "$folder"' EXIT
 
 search() { # OPTION NUMBER WANTED: one line, "ok" or "short of"
   local found zeros
+  rm -f "$folder/table.json" # of another order: a search overwrites no other table
   found=$("$gen" search "$1" "$2" --seed 2 --seconds "$seconds" --multiplication-weight 0.02 \
     --condition-weight 0.1 --out "$folder/table.json" 2>&1 >"$folder/path")
   if [ "$1" = --band ]; then

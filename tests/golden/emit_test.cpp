@@ -85,7 +85,7 @@ TEST(Emit, several_orders_and_languages_at_once_give_the_bytes_of_one_by_one) {
 }
 
 TEST(Emit, orders_that_cannot_be_read_are_quoted_with_the_option) {
-    for (const char* orders : {"6-3", "1-4", "3-21", "four", "3,,4", "3-", "''"}) {
+    for (const char* orders : {"6-3", "1-4", "3-21", "four", "3,,4", "3,", ",3", "3-", "''"}) {
         const Outcome result = zonal_gen(fmt::format("emit --orders {} --languages cpp", orders));
         EXPECT_NE(result.status, 0) << orders;
         EXPECT_THAT(result.output, AllOf(HasSubstr("--orders"), HasSubstr("3-6"))) << orders;
@@ -104,6 +104,9 @@ TEST(Emit, languages_that_cannot_be_emitted_are_named_before_anything_is_written
     };
     EXPECT_THAT(complaint_about("--orders 3 --languages cpp,cobol"),
                 AllOf(HasSubstr("--languages: found 'cobol'"), HasSubstr("glsl")));
+    EXPECT_THAT(complaint_about("--languages cobol"), HasSubstr("--languages: found 'cobol', wanted one of"));
+    EXPECT_THAT(complaint_about("--orders 3 --languages cpp,"), HasSubstr("--languages: found ''"));
+    EXPECT_THAT(complaint_about("--orders 3 --languages ''"), HasSubstr("--languages: found ''"));
     EXPECT_THAT(complaint_about("--orders 3 --languages cpp,glsl,cpp"), HasSubstr("found 'cpp' twice"));
     EXPECT_THAT(complaint_about("--languages cpp:3,glsl"), HasSubstr("--languages glsl: found no orders"));
     EXPECT_THAT(complaint_about("--language cpp"), HasSubstr("wanted --order N"));
@@ -300,23 +303,71 @@ TEST(Emit, an_order_out_of_range_is_named) {
         const Outcome result =
             zonal_gen(fmt::format("emit --order {} --language cpp --out '{}'", order, testing::TempDir()));
         EXPECT_EQ(result.status, 1);
-        EXPECT_THAT(result.output,
-                    AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)), HasSubstr("2 … 20")));
+        EXPECT_THAT(result.output, AllOf(HasSubstr("--order"), HasSubstr(std::to_string(order)),
+                                         HasSubstr("wanted a whole number from 2 to 20")));
     }
 }
 
-TEST(Emit, an_order_without_a_table_gets_no_lobe_kernels_and_says_so) {
-    const fs::path folder = fresh_folder("no_table"), tables = fresh_folder("no_tables");
-    ASSERT_EQ(run(fmt::format("ZONAL_TABLES_DIR='{}' '{}' emit --order 6 --language cpp --out '{}'",
-                              tables.string(), ZONAL_GEN, folder.string()))
+TEST(Emit, an_order_without_lobes_has_none_of_their_kernels_and_says_so) {
+    const fs::path folder = fresh_folder("no_lobes");
+    ASSERT_EQ(zonal_gen(fmt::format("emit --order 2 --language cpp --out '{}'", folder.string())).status, 0);
+    EXPECT_THAT(
+        read(folder / "zonal/order02.hpp"),
+        AllOf(HasSubstr("order02/rotate.hpp"), Not(HasSubstr("rotate_zhf")), HasSubstr("kHasLobes = 0")));
+    EXPECT_THAT(read(folder / "zonal/order02/rotate.hpp"), Not(HasSubstr("table")));
+    EXPECT_FALSE(fs::exists(folder / "zonal/order02/rotate_zhf.hpp"));
+}
+
+TEST(Emit, a_missing_folder_of_tables_is_an_error) {
+    const fs::path folder = fresh_folder("no_tables");
+    for (const char* command :
+         {"emit --language cpp --out x --order 6", "stats --order 6", "paper --sets 1"}) {
+        const Outcome result = run(
+            fmt::format("cd '{}' && ZONAL_TABLES_DIR=/nowhere '{}' {}", folder.string(), ZONAL_GEN, command));
+        EXPECT_EQ(result.status, 1) << command;
+        EXPECT_THAT(result.output, HasSubstr("/nowhere: found no such folder")) << command;
+    }
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Emit, banner_of_a_chosen_table_holds_the_command_that_makes_it_again) {
+    const fs::path folder = fresh_folder("chosen");
+    const fs::path table = fs::path(ZONAL_SOURCE_DIR) / "generator/tables/shared/order03.json";
+    fs::create_directories(folder / "my tables");
+    fs::copy_file(table, folder / "my tables/it's.json");
+    const auto emit = [&](const std::string& options) {
+        return run(fmt::format("cd '{}' && '{}' emit --order 3 --language cpp {}", folder.string(), ZONAL_GEN,
+                               options));
+    };
+    ASSERT_EQ(emit("--table \"my tables/it's.json\" --out generated/cpp").status, 0);
+    const fs::path header = folder / "generated/cpp/zonal/order03/factorize.hpp";
+    const std::string text = read(header), key = "// command : zonal-gen ";
+    const std::string command = text.substr(text.find(key) + key.size());
+    EXPECT_THAT(read(folder / "generated/cpp/zonal/order03/rotate.hpp"), Not(HasSubstr("--table")));
+    fs::remove_all(folder / "generated");
+    EXPECT_EQ(run(fmt::format("cd '{}' && '{}' {}", folder.string(), ZONAL_GEN,
+                              command.substr(0, command.find('\n'))))
                   .status,
               0);
-    // The ring needs no table.
-    EXPECT_THAT(read(folder / "zonal/order06.hpp"),
-                AllOf(HasSubstr("order06/rotate.hpp"), HasSubstr("order06/stable_rotate_zhf.hpp"),
-                      Not(HasSubstr("order06/rotate_zhf.hpp")), Not(HasSubstr("order06/per_band")),
-                      HasSubstr("kHasLobes = 0")));
-    EXPECT_FALSE(fs::exists(folder / "zonal/order06/rotate_zhf.hpp"));
+    EXPECT_EQ(read(header), text);
+}
+
+TEST(Emit, a_table_that_cannot_serve_gets_advice_that_helps) {
+    const fs::path folder = fs::path(ZONAL_SOURCE_DIR) / "generator/tables";
+    const auto complaint_about = [&](int order, const fs::path& table) {
+        const Outcome result = zonal_gen(fmt::format("emit --order {} --language cpp --table '{}' --out '{}'",
+                                                     order, table.string(), fresh_folder("advice").string()));
+        EXPECT_EQ(result.status, 1);
+        return result.output;
+    };
+    EXPECT_THAT(
+        complaint_about(4, folder),
+        AllOf(HasSubstr("it is a folder"), HasSubstr("name another table"), Not(HasSubstr("restore"))));
+    EXPECT_THAT(complaint_about(4, folder / "band/band04.json"),
+                AllOf(HasSubstr("band: found 4, wanted a table of order 4"), Not(HasSubstr("restore"))));
+    EXPECT_THAT(complaint_about(4, folder / "shared/order05.json"),
+                AllOf(HasSubstr("order: found 5, wanted 4"), Not(HasSubstr("restore"))));
+    EXPECT_THAT(complaint_about(2, folder / "shared/order03.json"), HasSubstr("drop --table"));
 }
 
 TEST(Emit, an_unknown_language_is_named_with_the_known_ones) {
@@ -354,14 +405,17 @@ fs::path writer_of_the_committed() {
     std::ofstream(writer) << fmt::format(
         "#!/usr/bin/env bash\n"
         "# emit --languages LANGUAGES --out FOLDER\n"
-        "mkdir -p \"$5\" && cp -r '{}/generated/.' \"$5\"\n",
+        "mkdir -p \"$5\" && /bin/cp -r '{}/generated/.' \"$5\"\n",
         ZONAL_SOURCE_DIR);
     fs::permissions(writer, fs::perms::owner_all);
     return writer;
 }
 
-Outcome check_generated(const fs::path& generator, const fs::path& folder, const std::string& option = "") {
-    return run(fmt::format("bash '{}/cmake/check_generated.sh' {} '{}' '{}'", ZONAL_SOURCE_DIR, option,
+/// `programs`: a folder whose programs stand in for those of the system.
+Outcome check_generated(const fs::path& generator, const fs::path& folder, const std::string& option = "",
+                        const fs::path& programs = {}) {
+    return run(fmt::format("PATH='{}':\"$PATH\" bash '{}/cmake/check_generated.sh' {} '{}' '{}'",
+                           programs.empty() ? "/usr/bin" : programs.string(), ZONAL_SOURCE_DIR, option,
                            generator.string(), folder.string()));
 }
 
@@ -392,6 +446,37 @@ TEST(CheckGenerated, an_orphaned_file_fails) {
     const Outcome result = check_generated(writer_of_the_committed(), folder);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("order99.hpp"), HasSubstr("list of files differs")));
+}
+
+TEST(CheckGenerated, a_folder_that_is_not_there_is_named) {
+    const fs::path folder = fresh_folder("nowhere") / "nogen";
+    const Outcome result = check_generated(writer_of_the_committed(), folder);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.output,
+                AllOf(HasSubstr(folder.string() + ": found no such folder"), HasSubstr("--accept")));
+    EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST(CheckGenerated, accepting_that_fails_leaves_the_old_files) {
+    const fs::path around = fresh_folder("unaccepted"), folder = around / "generated";
+    fs::copy(fs::path(ZONAL_SOURCE_DIR) / "generated/glsl", folder, fs::copy_options::recursive);
+    std::ofstream(folder / "mine.glsl") << "// the only copy\n";
+    const auto before = tree(around);
+    const auto program = [&](const char* name, const char* body) {
+        const fs::path programs = fresh_folder(fmt::format("instead_of_{}", name));
+        std::ofstream(programs / name) << "#!/bin/bash\n" << body << '\n';
+        fs::permissions(programs / name, fs::perms::owner_all);
+        return programs;
+    };
+    const fs::path full_disk = program("cp", "/bin/cp \"$@\"; rm -rf \"${@: -1}/cpp\"; exit 1");
+    const fs::path no_place = program("mv", "case \"$1\" in */new) exit 1;; *) exec /bin/mv \"$@\";; esac");
+    const fs::path failing = program("zonal-gen", "mkdir -p \"$5\"; exit 1") / "zonal-gen";
+    const fs::path writer = writer_of_the_committed();
+    for (const auto& [generator, programs] :
+         std::vector<std::pair<fs::path, fs::path>>{{failing, {}}, {writer, full_disk}, {writer, no_place}}) {
+        EXPECT_NE(check_generated(generator, folder, "--accept", programs).status, 0) << programs;
+        EXPECT_EQ(tree(around), before) << programs;
+    }
 }
 
 TEST(CheckGenerated, accepting_puts_the_generators_output_in_place) {

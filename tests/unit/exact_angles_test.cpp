@@ -53,6 +53,17 @@ TEST(ClosedForm, quotes_what_it_cannot_read) {
     }
 }
 
+TEST(ClosedForm, what_would_take_forever_or_all_memory_is_refused) {
+    for (const std::string& text : {std::string("1e999999999"), std::string("1e-99999"),
+                                    std::string(100000, '(') + "1" + std::string(100000, ')'),
+                                    std::string(100000, '-') + "1", std::string(1000000, '7')})
+        EXPECT_THROW(evaluate_closed_form(text), std::invalid_argument) << text.substr(0, 20);
+    for (const char* text :
+         {"1e999999999", "1e-2147483649", "nan", "inf", "0x10", "", ".", "1e", "1 ", "--1"})
+        EXPECT_THROW(Real{text}, std::runtime_error) << text;
+    EXPECT_EQ(Real{"-.5e+1"}, -5);
+}
+
 TEST(DirectionOf, coordinate_planes_have_exact_zeros) {
     const Direction<Real> x = direction_of(kPi / 2, Real(0));
     EXPECT_EQ(x(1), 0);

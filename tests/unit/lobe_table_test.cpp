@@ -118,7 +118,8 @@ TEST_F(LobeTableFile, sha256_changes_with_any_byte) {
 }
 
 TEST_F(LobeTableFile, missing_file_is_named) {
-    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("no such table")));
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(),
+                                   HasSubstr("found nothing that can be read (No such file or directory)")));
 }
 
 TEST_F(LobeTableFile, truncated_file_says_where_it_breaks) {
@@ -135,6 +136,45 @@ TEST_F(LobeTableFile, missing_field_is_named) {
 TEST_F(LobeTableFile, field_of_another_type_is_named_with_its_value) {
     edit("\"seed\": 7", "\"seed\": \"seven\"");
     EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("seed: found \"seven\"")));
+}
+
+TEST_F(LobeTableFile, a_folder_is_named_as_such) {
+    fs::create_directories(path_);
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("it is a folder")));
+}
+
+TEST_F(LobeTableFile, numbers_that_are_not_whole_or_do_not_fit_are_named) {
+    const auto refused = [&](const std::string& from, const std::string& to, const char* message) {
+        edit(from, to);
+        EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr(message)));
+    };
+    refused("\"order\": 3", "\"order\": 3.9", "order: found 3.9, wanted an integer");
+    refused("\"order\": 3", "\"order\": 4294967299", "order: found 4294967299, wanted an integer");
+    refused("\"order\": 3", "\"order\": 1e300", "order: found 1e+300, wanted an integer");
+    refused("\"order\": 3", "\"order\": true", "order: found true, wanted an integer");
+    refused("\"seed\": 7", "\"seed\": -1", "seed: found -1, wanted a non-negative integer");
+    refused("\"zeros\": [0", "\"zeros\": [0.5", "zeros: found 0.5");
+}
+
+TEST_F(LobeTableFile, what_has_no_end_is_refused_at_once) {
+    edit("[\"pi/2\"", "[\"1e999999999\"");
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("angles[4]: found cannot read")));
+    const std::string text = text_of(small_table());
+    const std::size_t digits = text.find("[\"0") + 2;
+    save(text.substr(0, digits) + "1e999999999" + text.substr(text.find('"', digits)));
+    EXPECT_THAT(complaint(),
+                AllOf(names_file_and_next_step(), HasSubstr("directions: found \"1e999999999\"")));
+    save(std::string(100000, '['));
+    EXPECT_THAT(complaint(), AllOf(names_file_and_next_step(), HasSubstr("brackets within each other")));
+}
+
+TEST_F(LobeTableFile, next_step_says_what_made_such_a_table) {
+    try {
+        read_lobe_table(path_, LobeUse::order(9, TableRole::rotate_zhf));
+        FAIL() << "read";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("--order 9 --for rotate_zhf --condition-cap 20 --out NEW.json"));
+    }
 }
 
 TEST_F(LobeTableFile, another_order_is_refused) {
@@ -260,7 +300,7 @@ TEST_F(LobeTableFile, what_it_is_for_is_read_back) {
     table.use = LobeUse::order(3, TableRole::rotate_zhf);
     write_lobe_table(path_, table);
     EXPECT_EQ(read_lobe_table(path_, table.use).use.role, TableRole::rotate_zhf);
-    EXPECT_EQ(read_lobes_to_start_from(path_, LobeUse::order(3)).use.role, TableRole::rotate_zhf);
+    EXPECT_EQ(read_lobe_table_of_any_role(path_, LobeUse::order(3)).use.role, TableRole::rotate_zhf);
 }
 
 TEST_F(LobeTableFile, a_table_that_does_not_say_what_it_is_for_is_refused) {
@@ -324,7 +364,8 @@ TEST_F(LobeTableFile, table_of_an_order_is_none_of_a_band) {
         read_lobe_table(path_, LobeUse::band(2));
         FAIL() << "not refused";
     } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), AllOf(HasSubstr("band: found nothing"), HasSubstr("--band 2")));
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("order: found 3, wanted a table of band 2"),
+                                        HasSubstr("--band 2"), Not(HasSubstr("restore"))));
     }
 }
 

@@ -108,6 +108,18 @@ TEST_F(OutputFile, what_is_not_a_regular_file_is_refused_early_and_late) {
     EXPECT_THAT(early_complaint(path("pipe") / "t.json"), HasSubstr("Not a directory"));
 }
 
+TEST_F(OutputFile, names_of_the_system_are_refused_early_and_late) {
+    const fs::path of_file = fs::path("/proc/self/fd/1");  // whatever it is open for
+    fs::create_symlink(of_file, path("stdout"));
+    for (const fs::path& target : {fs::path("/dev/stdout"), of_file, path("stdout"), fs::path("/proc/x"),
+                                   fs::path("/sys/x"), fs::path("/dev/full"), fs::path()}) {
+        EXPECT_NE(early_complaint(target), "none") << target;
+        EXPECT_NE(complaint(target), "none") << target;
+    }
+    EXPECT_THAT(early_complaint(""), HasSubstr("the name is empty"));
+    EXPECT_THAT(early_complaint("/proc/x"), HasSubstr("a name of the system"));
+}
+
 TEST_F(OutputFile, check_leaves_nothing) {
     check_is_writable("--out", path("made/later/t.json"));
     EXPECT_EQ(files(), 0);

@@ -132,6 +132,16 @@ TEST(runtime_rotation, stretched_matrix_is_refused_with_the_error_measured) {
     EXPECT_NE(message.find("orthonormalise"), std::string::npos) << message;
 }
 
+TEST(runtime_rotation, error_that_a_message_names_is_accepted_as_tolerance) {
+    for (int k = 1; k <= 20; ++k) {
+        const float stretch = 1 + static_cast<float>(k) / 77;
+        const RotationMatrix<float> stretched(Eigen::Vector3f(stretch, 1, 1).asDiagonal().toDenseMatrix());
+        const std::string message = message_of_check(stretched, 1e-6);
+        const double error = std::stod(message.substr(message.find("found ") + 6));
+        EXPECT_EQ(message_of_check(stretched, error), "no error") << message;
+    }
+}
+
 TEST(runtime_rotation, value_that_is_not_finite_is_refused_by_place) {
     Eigen::Matrix3f m = Eigen::Matrix3f::Identity();
     m(1, 2) = std::numeric_limits<float>::quiet_NaN();

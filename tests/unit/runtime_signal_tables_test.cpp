@@ -444,6 +444,25 @@ TEST(SignalTables, bad_arguments_are_named_with_what_was_wanted) {
     EXPECT_EQ(message_of<float>(4, bright, good), "no error");
 }
 
+TEST(SignalTables, the_least_budget_that_a_message_names_is_accepted) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        const Signal signal = lighting(4, seed);
+        const auto asked = [&](auto zero, int largest_face) {
+            using T = decltype(zero);
+            const std::string message =
+                message_of<T>(4, signal, {.budget = 1e-9, .largest_face = largest_face});
+            const std::string words = "wanted at least ";
+            ASSERT_THAT(message, testing::HasSubstr(words));
+            const double least = std::stod(message.substr(message.find(words) + words.size()));
+            EXPECT_EQ(message_of<T>(4, signal, {.budget = least, .largest_face = largest_face}), "no error")
+                << message;
+        };
+        asked(half(), 4096);
+        asked(0.0f, 256);
+        asked(0.0f, 1000);
+    }
+}
+
 TEST(SignalTables, a_budget_out_of_reach_is_named_with_the_one_that_can_be_kept) {
     using testing::AllOf;
     using testing::HasSubstr;

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "program/program.hpp"
 #include "support/banner.hpp"
 #include "support/oracle.hpp"
 #include "web/scene.hpp"
@@ -215,18 +215,8 @@ int main(int argc, char** argv) {
     auto* judge = app.add_subcommand("compare", "compares the browser's values with C++ and the oracle");
     judge->add_option("scene", scene, "scene.json")->required();
     judge->add_option("values", values, "values.f32, as render.mjs writes it")->required();
-    try {
-        app.parse(argc, argv);
+    return zonal::program::run(app, argc, argv, [&] {
         if (write->parsed()) zonal::web::write_scene(zonal::web::scene_of_map(map), scene);
         if (judge->parsed()) compare(scene, values);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& problem) {
-        fmt::print(stderr, "error: {}; run with --help for the options\n", problem.what());
-        return 1;
-    } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n", problem.what());
-        return 1;
-    }
-    return 0;
+    });
 }

@@ -27,7 +27,7 @@ namespace zonal::detail {
 
 void throw_not_orthonormal(double error, double tolerance) {
     throw Error({.field = "rotation: ||R R^T - I||",
-                 .found = rounded(error, 9),
+                 .found = rounded_up(error, 9),
                  .wanted = joined("at most ", rounded(tolerance, 9)),
                  .next_step = "orthonormalise the matrix or raise the tolerance"});
 }

@@ -3,6 +3,7 @@
 // Small pieces of text for messages, the same in every locale. (std::format is not in g++ 12.)
 
 #include <charconv>
+#include <cmath>
 #include <concepts>
 #include <string>
 #include <string_view>
@@ -27,6 +28,15 @@ std::string text_of(Number number) {
 inline std::string rounded(double number, int digits) {
     char text[64];
     return {text, std::to_chars(text, text + sizeof text, number, std::chars_format::general, digits).ptr};
+}
+
+/// The same, but never less than the number: what a message asks for must be accepted when it is given.
+inline std::string rounded_up(double number, int digits) {
+    const std::string nearest = rounded(number, digits);
+    double read = 0;
+    std::from_chars(nearest.data(), nearest.data() + nearest.size(), read);
+    if (!(read < number)) return nearest;
+    return rounded(number + std::pow(10.0, std::floor(std::log10(std::abs(number))) + 1 - digits), digits);
 }
 
 /// Texts and numbers, one behind the other.

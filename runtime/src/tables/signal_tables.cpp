@@ -232,9 +232,9 @@ void check_reachable(const SignalError& error, const SignalTableOptions& options
     const double limit = error.limit();
     const bool is_rounding = options.budget <= limit;
     throw Error({.field = "budget",
-                 .found = rounded(options.budget, 3),
+                 .found = text_of(options.budget),
                  .wanted = joined(
-                     "at least ", rounded(reached, 3), ": ",
+                     "at least ", rounded_up(reached, 3), ": ",
                      is_rounding ? joined(Format<T>::kName, " texels of any number keep ", rounded(limit, 3))
                                  : joined("what faces of ", options.largest_face, " texels an edge keep")),
                  .next_step = is_rounding ? joined("raise the budget, or ", Format<T>::kOther)

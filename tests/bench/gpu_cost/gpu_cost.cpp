@@ -3,8 +3,6 @@
 // and nothing measured.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +11,8 @@
 #include "gpu/pipeline_statistics.hpp"
 #include "gpu/shader_modules.hpp"
 #include "gpu/tailored_shader.hpp"
+#include "program/numbers.hpp"
+#include "program/program.hpp"
 
 namespace {
 
@@ -137,13 +137,13 @@ void run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
     Options options;
     CLI::App app(
         "Registers, instructions and estimated cycles of the compute shaders, by the null device of Mesa's "
         "RADV: needs no GPU");
-    app.add_option("--orders", options.orders, "orders; without it all that the folder has")
-        ->check(CLI::Range(1, 20));
+    zonal::program::add_numbers(app, "--orders", options.orders, zonal::program::from_to(1, 20),
+                                "orders; without it all that the folder has");
     app.add_option(
         "--kernels", options.kernels,
         fmt::format("kernels, by what their files are called (rotate_rgb, stable_rotate_zhf); {} is "
@@ -165,10 +165,5 @@ int main(int argc, char** argv) try {
            "and 4 of set 0, a combined image sampler at 3, one push constant")
         ->check(CLI::ExistingFile);
     app.add_option("--json", options.json, "file to write the same numbers to");
-    CLI11_PARSE(app, argc, argv);
-    run(options);
-    return 0;
-} catch (const std::exception& error) {
-    fmt::print(stderr, "zonal-gpu-cost: {}\n", error.what());
-    return 1;
+    return zonal::program::run(app, argc, argv, [&] { run(options); });
 }
