@@ -23,7 +23,7 @@ struct Unwritable {
     std::string reason;
 };
 
-[[noreturn]] void fail(int error) { throw Unwritable{std::generic_category().message(error)}; }
+[[noreturn]] void fail_to_write(int error) { throw Unwritable{std::generic_category().message(error)}; }
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
@@ -41,7 +41,7 @@ fs::path behind_links(fs::path path) {
     if (path.empty()) throw Unwritable{"the name is empty"};
     for (int links = 0; fs::is_symlink(fs::symlink_status(path)); ++links) {
         check_is_no_system_name(path);
-        if (links == kMostLinks) fail(ELOOP);
+        if (links == kMostLinks) fail_to_write(ELOOP);
         path = path.parent_path() / fs::read_symlink(path);
     }
     check_is_no_system_name(path);
@@ -53,19 +53,19 @@ fs::path behind_links(fs::path path) {
 fs::path check_target(const fs::path& target) {
     struct stat there {};
     if (stat(target.c_str(), &there) == 0) {
-        if (S_ISDIR(there.st_mode)) fail(EISDIR);
+        if (S_ISDIR(there.st_mode)) fail_to_write(EISDIR);
         if (!S_ISREG(there.st_mode)) throw Unwritable{"it is not a regular file"};
     } else if (errno != ENOENT) {
-        fail(errno);
+        fail_to_write(errno);
     }
-    if (!target.has_filename()) fail(EISDIR);
+    if (!target.has_filename()) fail_to_write(EISDIR);
     fs::path folder = folder_of(target);  // folders that are not there yet will be made
     while (stat(folder.c_str(), &there) != 0) {
-        if (errno != ENOENT) fail(errno);
+        if (errno != ENOENT) fail_to_write(errno);
         folder = folder_of(folder);
     }
-    if (!S_ISDIR(there.st_mode)) fail(ENOTDIR);
-    if (access(folder.c_str(), W_OK | X_OK) != 0) fail(errno);
+    if (!S_ISDIR(there.st_mode)) fail_to_write(ENOTDIR);
+    if (access(folder.c_str(), W_OK | X_OK) != 0) fail_to_write(errno);
     return folder;
 }
 
@@ -83,7 +83,7 @@ class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target)
         : name_((folder_of(target) / ".zonal-XXXXXX").string()), descriptor_(mkstemp(name_.data())) {
-        if (descriptor_ < 0) fail(errno);
+        if (descriptor_ < 0) fail_to_write(errno);
     }
     ~TemporaryFile() {
         if (descriptor_ >= 0) close(descriptor_);
@@ -98,16 +98,16 @@ class TemporaryFile {
             if (count >= 0)
                 done += static_cast<std::size_t>(count);
             else if (errno != EINTR)
-                fail(errno);
+                fail_to_write(errno);
         }
     }
 
     void replace(const fs::path& target) {
-        if (fchmod(descriptor_, mode_for(target)) != 0) fail(errno);
+        if (fchmod(descriptor_, mode_for(target)) != 0) fail_to_write(errno);
         const int descriptor = descriptor_;
         descriptor_ = -1;
-        if (close(descriptor) != 0) fail(errno);
-        if (rename(name_.c_str(), target.c_str()) != 0) fail(errno);
+        if (close(descriptor) != 0) fail_to_write(errno);
+        if (rename(name_.c_str(), target.c_str()) != 0) fail_to_write(errno);
         is_placed_ = true;
     }
 
@@ -165,12 +165,12 @@ OutputLock::OutputLock(const fs::path& path) {
         const fs::path folder = folder_of(behind_links(path));
         fs::create_directories(folder);
         folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (folder_ < 0) fail(errno);
+        if (folder_ < 0) fail_to_write(errno);
         while (flock(folder_, LOCK_EX) != 0) {
             if (errno == EINTR) continue;
             const int error = errno;
             close(folder_);
-            fail(error);
+            fail_to_write(error);
         }
     });
 }
