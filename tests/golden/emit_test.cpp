@@ -475,7 +475,7 @@ TEST(CheckGenerated, accepting_that_fails_leaves_the_old_files) {
     for (const auto& [generator, programs] :
          std::vector<std::pair<fs::path, fs::path>>{{failing, {}}, {writer, full_disk}, {writer, no_place}}) {
         EXPECT_NE(check_generated(generator, folder, "--accept", programs).status, 0) << programs;
-        EXPECT_EQ(tree(around), before) << programs;
+        EXPECT_TRUE(tree(around) == before) << programs;  // a difference has megabytes
     }
 }
 
