@@ -69,7 +69,7 @@ Words compiled(const std::string& source, ShaderLanguage language) {
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
     const auto rules =
-        static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | (is_hlsl ? EShMsgReadHlsl : 0));
+        static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | (is_hlsl ? EShMsgReadHlsl : EShMsgDefault));
     if (!shader.parse(GetDefaultResources(), 450, false, rules))
         throw std::runtime_error(
             fmt::format("{} cannot be compiled: {}", is_hlsl ? "HLSL" : "GLSL", shader.getInfoLog()));
