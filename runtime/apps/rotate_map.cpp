@@ -1,16 +1,17 @@
-// zonal-rotate-map: shows on an environment map that a kernel rotates as it should.
+// zonal rotate-map: shows on an environment map that a kernel rotates as it should.
 //
 // Projects the map to SH, rotates its three channels by the kernel of that order in float, and compares with
 // f(R^T w) evaluated point by point in double, as pictures and as numbers.
+#include "rotate_map.hpp"
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
@@ -139,28 +140,22 @@ void run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    Options options;
-    CLI::App app("Rotates an environment map by an SH kernel and compares with direct evaluation.",
-                 "zonal-rotate-map");
-    app.add_option("--order", options.order, "number of SH bands")->capture_default_str();
-    app.add_option("--map", options.map, "latitude-longitude map, OpenEXR or Radiance .hdr")->required();
-    app.add_option("--axis", options.axis, "axis of the rotation: x y z, any length")
+namespace zonal {
+
+void add_rotate_map_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "rotate-map", "rotate an environment map by an SH kernel and compare with direct evaluation");
+    const auto options = std::make_shared<Options>();
+    command->add_option("--order", options->order, "number of SH bands")->capture_default_str();
+    command->add_option("--map", options->map, "latitude-longitude map, OpenEXR or Radiance .hdr")
+        ->required();
+    command->add_option("--axis", options->axis, "axis of the rotation: x y z, any length")
         ->expected(3)
         ->capture_default_str();
-    app.add_option("--angle-degrees", options.angle_degrees, "angle of the rotation")->capture_default_str();
-    app.add_option("--out", options.out, "folder for the pictures")->required();
-    try {
-        app.parse(argc, argv);
-        run(options);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& problem) {
-        fmt::print(stderr, "error: {}; run with --help for the options\n", problem.what());
-        return 1;
-    } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n", problem.what());
-        return 1;
-    }
-    return 0;
+    command->add_option("--angle-degrees", options->angle_degrees, "angle of the rotation")
+        ->capture_default_str();
+    command->add_option("--out", options->out, "folder for the pictures")->required();
+    command->callback([options] { run(*options); });
 }
+
+}  // namespace zonal
