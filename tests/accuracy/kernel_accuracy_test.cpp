@@ -34,8 +34,8 @@ void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>&
         if (order == 2 && kIsFloat) continue;
         EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))
             << name << ", order " << order << ", " << worst[k].name_of_rotations;
-        // Noise in R costs `rotate` of order 3 up to 2.12 ‖R Rᵀ - I‖_F (README), and the contract grants 1.
-        // Single bands show it.
+        // Noise in R costs `rotate` of order 3 up to 2.12 ‖R Rᵀ - I‖_F (tests/bench/README.md), and the
+        // contract grants 1. Single bands show it.
         if (order == 3 && kIsFloat && name == "rotate") continue;
         EXPECT_LE(worst[k].error_of_bands, accuracy::contract(name, order, kIsFloat))
             << name << ", order " << order << ", " << worst[k].name_of_bands;
