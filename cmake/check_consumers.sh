@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds and tests the projects under tests/consumer that add zonal as a folder of theirs, each in build/check_consumers:
 # one with a fmt of its own, one where no package can be found, one whose warnings are errors (by g++ and clang++), a
-# plug-in (with static and shared libraries), and kernels without exceptions. Orders 3 and 4 only, to be quick.
+# plug-in (with static and shared libraries), kernels without exceptions, and what README shows. Orders 3 and 4 only, to
+# be quick.
 #   bash cmake/check_consumers.sh [NAME of one of those folders]
 # Exit status not zero, and what the step printed, when one fails.
 set -euo pipefail
@@ -37,3 +38,4 @@ if [ -f "$shared" ] && nm -DC --defined-only "$shared" | grep 'zonal::order'; th
   exit 1
 fi
 check no_exceptions no_exceptions
+check readme readme -DCMAKE_CXX_FLAGS=-O1

@@ -2,7 +2,7 @@
 # Installs a finished build into a prefix under build/, then builds, runs and tests tests/consumer/installed against it.
 #   bash cmake/check_install.sh [BUILD_FOLDER, default build/release]
 # With zonal-gen in the build, it also has the installed program write kernels, and checks what it says of
-# mistakes. Exit status not zero and the output of the step that failed, when one fails.
+# mistakes; with the program zonal, that it prints what README shows. Exit status not zero and the output of the step that failed, when one fails.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$(realpath "${1:-$root/build/release}")
@@ -45,6 +45,22 @@ consumer() { # FOLDER [options]
 quietly consumer consumer
 quietly cmake --build "$work/consumer"
 quietly ctest --test-dir "$work/consumer" --output-on-failure --no-tests=error
+
+# The program prints what README says, errors aside, which compilers change; it names what it does not know.
+if [ -x "$prefix/bin/zonal" ]; then
+  without_errors() { sed -E 's/[0-9.]+e-[0-9]+/E/g; s/^ +//' "$@"; }
+  "$prefix/bin/zonal" rotate-map --map "$root/tests/data/studio.exr" --order 4 --axis 1 2 3 --angle-degrees 70 \
+    --out "$work/images" >"$work/printed"
+  if ! diff <(sed '1,/^    \$ .*rotate-map/d; /^$/,$d' "$root/README.md" | without_errors) \
+    <(without_errors "$work/printed"); then
+    echo "zonal rotate-map: printed what stands at > above, wanted what README.md shows; correct one of them" >&2
+    exit 1
+  fi
+  quietly "$prefix/bin/zonal" --help
+  quietly "$prefix/bin/zonal" rotate-map --help
+  fails_with "subcommand: found none, wanted one of: rotate-map" "$prefix/bin/zonal"
+  fails_with "subcommand: found 'turn-map', wanted one of: rotate-map" "$prefix/bin/zonal" turn-map --order 4
+fi
 
 if [ $has_generator = ON ]; then
   for order in 1 21 four; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The main job: searches lobes for an order, emits and compiles its kernels, and rotates a real environment map
 # by them. Writes under build/run/, and builds zonal-gen in build/release/.
-#   bash cmake/run.sh [--accept] [ORDER [MAP [options for zonal-rotate-map, such as --axis 0 0 1 --angle-degrees 30]]]
+#   bash cmake/run.sh [--accept] [ORDER [MAP [options of zonal rotate-map, such as --axis 0 0 1 --angle-degrees 30]]]
 # ORDER: 3 … 20, default 4. MAP: latitude-longitude .exr or .hdr, default tests/data/studio.exr.
 # --accept: also puts the table and the code in place, under generator/tables and generated/.
 set -euo pipefail
@@ -37,9 +37,9 @@ table=$out/tables/order$(printf %02d "$order" 2>/dev/null || echo "$order").json
 "$gen" emit --order "$order" --language cpp --table "$table" --out "$out/generated/cpp"
 "$gen" stats --order "$order" --table "$table" --json >"$out/stats.json"
 
-build "$out/kernels" "zonal-rotate-map zonal-report" -DZONAL_BUILD_GENERATOR=OFF -DZONAL_BUILD_GPU_TESTS=OFF \
+build "$out/kernels" "zonal zonal-report" -DZONAL_BUILD_GENERATOR=OFF -DZONAL_BUILD_GPU_TESTS=OFF \
   -DZONAL_BATCH_TARGETS=baseline -DZONAL_ORDERS="$order" -DZONAL_GENERATED_DIR="$out/generated/cpp"
-"$out/kernels/bin/zonal-rotate-map" --order "$order" --map "$map" --out "$out/images" "$@"
+"$out/kernels/bin/zonal" rotate-map --order "$order" --map "$map" --out "$out/images" "$@"
 "$out/kernels/bin/zonal-report" --stats "$out/stats.json"
 
 if [ "$accept" = yes ]; then

@@ -1,7 +1,8 @@
-// zonal-rotate-map: shows on an environment map that a kernel rotates as it should.
+// zonal rotate-map: shows on an environment map that a kernel rotates as it should.
 //
 // Projects the map to SH, rotates its three channels by the kernel of that order in float, and compares with
 // f(R^T w) evaluated point by point in double, as pictures and as numbers.
+#include "rotate_map.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <string>
@@ -134,19 +136,23 @@ void run(const Options& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    Options options;
-    CLI::App app("Rotates an environment map by an SH kernel and compares with direct evaluation.",
-                 "zonal-rotate-map");
-    zonal::program::add_number(app, "--order", options.order, zonal::program::at_least(1),
-                               "number of SH bands")
+namespace zonal {
+
+void add_rotate_map_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "rotate-map", "rotate an environment map by an SH kernel and compare with direct evaluation");
+    const auto options = std::make_shared<Options>();
+    program::add_number(*command, "--order", options->order, program::at_least(1), "number of SH bands")
         ->capture_default_str();
-    app.add_option("--map", options.map, "latitude-longitude map, OpenEXR or Radiance .hdr")->required();
-    zonal::program::add_numbers(app, "--axis", options.axis, {}, "axis of the rotation: x y z, any length")
+    command->add_option("--map", options->map, "latitude-longitude map, OpenEXR or Radiance .hdr")
+        ->required();
+    program::add_numbers(*command, "--axis", options->axis, {}, "axis of the rotation: x y z, any length")
         ->expected(3)
         ->capture_default_str();
-    zonal::program::add_number(app, "--angle-degrees", options.angle_degrees, {}, "angle of the rotation")
+    program::add_number(*command, "--angle-degrees", options->angle_degrees, {}, "angle of the rotation")
         ->capture_default_str();
-    app.add_option("--out", options.out, "folder for the pictures")->required();
-    return zonal::program::run(app, argc, argv, [&] { run(options); });
+    command->add_option("--out", options->out, "folder for the pictures")->required();
+    command->callback([options] { run(*options); });
 }
+
+}  // namespace zonal

@@ -40,8 +40,8 @@ void expect_within_bounds(int order, const std::vector<accuracy::Contestant<T>>&
             accuracy::contract(kernel, order, kIsFloat) * (order == 2 && kIsFloat ? 2 : 1);
         EXPECT_LE(worst[k].error_of_rotations, contract)
             << name << ", order " << order << ", " << worst[k].name_of_rotations;
-        // Noise in R costs `rotate` of order 3 up to 2.12 ‖R Rᵀ - I‖_F (README), and the contract grants 1.
-        // Single bands show it.
+        // Noise in R costs `rotate` of order 3 up to 2.12 ‖R Rᵀ - I‖_F (tests/bench/README.md), and the
+        // contract grants 1. Single bands show it.
         if (order == 3 && kIsFloat && kernel == "rotate") continue;
         EXPECT_LE(worst[k].error_of_bands, contract)
             << name << ", order " << order << ", " << worst[k].name_of_bands;

@@ -1,5 +1,5 @@
 // Error beside time for every kernel of the orders that are compiled in, with the counts that `zonal-gen
-// stats` gives where it is told to: what the main job prints and README shows.
+// stats` gives where it is told to: what the main job prints and README.md beside this shows.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

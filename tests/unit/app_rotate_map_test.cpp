@@ -1,4 +1,4 @@
-// zonal-rotate-map as people run it.
+// zonal rotate-map as people run it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,10 +26,10 @@ class RotateMap : public testing::Test {
     int run(const std::string& arguments, const std::string& output = "") {
         const fs::path log = folder_ / "log";
         const std::string to = output.empty() ? fmt::format(">'{}'", log.string()) : output;
-        const int status = std::system(fmt::format("'{}' --order 2 --map '{}' --out '{}' {} {} 2>'{}.error'",
-                                                   ZONAL_ROTATE_MAP, map_, (folder_ / "out").string(),
-                                                   arguments, to, log.string())
-                                           .c_str());
+        const int status = std::system(
+            fmt::format("'{}' rotate-map --order 2 --map '{}' --out '{}' {} {} 2>'{}.error'", ZONAL_PROGRAM,
+                        map_, (folder_ / "out").string(), arguments, to, log.string())
+                .c_str());
         said = read(log.string() + ".error");
         printed = output.empty() ? read(log) : "";
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

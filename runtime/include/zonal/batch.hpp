@@ -62,10 +62,10 @@ struct RotationQuaternions {
 using Executor = std::function<void(std::size_t count,
                                     const std::function<void(std::size_t begin, std::size_t end)>& body)>;
 
-/// Turns every vector of a batch by a rotation of its own, all channels of a vector alike.
+/// Rotates every vector of a batch by a rotation of its own, all channels of a vector alike.
 /// order     : number of bands N; N^2 coefficients, index l(l+1)+m, real orthonormal basis, no
 ///             Condon-Shortley sign, z polar.
-/// rotations : one for each vector, vector k by rotation k; they turn the function, f'(w) = f(R^T w).
+/// rotations : one for each vector, vector k by rotation k; they rotate the function, f'(w) = f(R^T w).
 ///             Matrices may be mirrors (determinant -1). Precondition: orthonormal (see checked_rotation).
 /// in, out   : as `layout` says; they may be the same span, else they must not overlap. Values between the
 ///             vectors are not touched. No alignment is needed.
@@ -73,8 +73,8 @@ using Executor = std::function<void(std::size_t count,
 /// Errors    : zonal::Error when the order is not compiled in, the layout contradicts itself, a span is too
 ///             short for the layout, or `in`, `out` and `rotations` overlap otherwise than as said; `out` is
 ///             then untouched.
-/// Accuracy  : as `rotate`, see zonal/orderNN/rotate.hpp; results may differ from it in the last bits, and from one
-///             processor to another.
+/// Accuracy  : as `rotate`, see zonal/orderNN/rotate.hpp; results may differ from it in the last bits, and
+///             from one processor to another.
 /// executor  : none: the calling thread does all.
 /// Cost      : no allocation; SIMD packs of 4 to 16 vectors chosen for the processor at run time.
 ///             Batches of more than 32 MiB without gaps, not in place, are written past the caches.
@@ -87,7 +87,7 @@ ZONAL_API void rotate_each(int order, const RotationQuaternions<float>& rotation
 ZONAL_API void rotate_each(int order, const RotationQuaternions<double>& rotations, const BatchLayout& layout,
                            std::span<const double> in, std::span<double> out, const Executor& executor = {});
 
-/// Turns every vector of a batch by one rotation; what depends on the rotation only is computed once.
+/// Rotates every vector of a batch by one rotation; what depends on the rotation only is computed once.
 /// All else as in `rotate_each`; a NaN or infinity in the rotation spoils every vector. Three interleaved
 /// channels of float are as accurate as `blocks` in orders 3 to 6 where there is SSE4 or NEON.
 ZONAL_API void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,

@@ -33,12 +33,12 @@ ZONAL_API Convention convention_from_name(std::string_view name);
 /// All valid names, `3dgs` and its alias `khr_gaussian_splatting` both.
 ZONAL_API std::vector<std::string_view> convention_names();
 
-/// The matrix that makes a kernel of ours turn the convention's coefficients as they are:
+/// The matrix that makes a kernel of ours rotate the convention's coefficients as they are:
 /// `rotate(order, kernel_rotation(convention, R), in, out)` equals `rotate(convention, order, R, in, out)`
 /// for every convention but fuma and unity_l2, whose scales vary within a band.
 /// R       : in the convention's own form and axes. T is float or double.
 /// Result  : P R P^T, P a signed permutation of the axes; of R^T for directx. Exact.
-/// Beware  : not for vectors that went through to_zonal; those turn by R itself (by M^T for directx).
+/// Beware  : not for vectors that went through to_zonal; those rotate by R itself (by M^T for directx).
 template <class T>
 ZONAL_API RotationMatrix<T> kernel_rotation(Convention convention, const RotationMatrix<T>& rotation);
 
@@ -48,7 +48,7 @@ ZONAL_API RotationMatrix<T> kernel_rotation(Convention convention, const Rotatio
 ///            spans overlap in part, or, for e3nn, the order is not among compiled_orders(); `out` is then
 ///            untouched.
 /// Accuracy : a rounded factor and a rounded product a value, 3/2 epsilons; exact where the factor is 1
-///            or -1; e3nn: that of zonal::rotate, which turns the polar axis.
+///            or -1; e3nn: that of zonal::rotate, which rotates the polar axis.
 /// Cost     : one multiplication a value; e3nn: one rotation. A NaN or infinity stays in its coefficient
 ///            (e3nn: in its band).
 ZONAL_API void to_zonal(Convention convention, int order, std::span<const float> in, std::span<float> out);
@@ -68,7 +68,7 @@ ZONAL_API void from_zonal(Convention convention, int order, std::span<const Rgb<
                           std::span<Rgb<double>> out);
 
 /// Rotates one signal given in a convention by a matrix given in that convention; the result is in it too.
-/// The function turns: f'(w) = f(R^T w), where R acts on columns (directx: R = M^T); mirrors are allowed.
+/// The function rotates: f'(w) = f(R^T w), where R acts on columns (directx: R = M^T); mirrors are allowed.
 /// in, out  : order^2 values each; the same span, or separate ones.
 /// Errors   : zonal::Error when the convention does not have the order, the order is not among
 ///            compiled_orders(), a span has the wrong length, or the spans overlap in part; `out` is then

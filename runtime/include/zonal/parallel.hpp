@@ -12,7 +12,7 @@ namespace zonal {
 /// An executor that runs ranges of a batch on the threads of oneTBB's current arena; tbb::task_arena and
 /// tbb::global_control choose how many they are.
 /// grain : vectors in the smallest range. Results do not depend on it, nor on the number of threads: each
-///         vector is turned alike wherever it stands.
+///         vector is rotated alike wherever it stands.
 inline Executor on_all_cores(std::size_t grain = 1024) {
     return [grain](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
         tbb::parallel_for(

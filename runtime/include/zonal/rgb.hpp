@@ -6,7 +6,7 @@ namespace zonal {
 
 /// A signal value of three channels.
 /// A kernel is linear in the signal and needs of it only the operations below, a rotation scalar on the left;
-/// so `rotate<T, Rgb<T>>` turns three channels at once and pays once for what depends on the rotation only.
+/// so `rotate<T, Rgb<T>>` rotates three channels at once and pays once for what depends on the rotation only.
 /// Always inlined: a function that files compiled for different targets share could be any file's.
 template <class T>
 struct Rgb {

@@ -12,7 +12,7 @@ namespace zonal {
 ZONAL_API std::span<const int> compiled_orders();
 
 /// Rotates one SH vector of the given order (order N: N^2 coefficients, degrees 0 to N-1).
-/// rotation : turns the function, f'(w) = f(R^T w); mirrors too (det R = -1).
+/// rotation : rotates the function, f'(w) = f(R^T w); mirrors too (det R = -1).
 ///            Precondition: orthonormal within what the caller can bear (see checked_rotation).
 /// in, out  : N^2 values each, index l(l+1)+m, real orthonormal basis, no Condon-Shortley sign, z polar.
 ///            They may be the same span; they must not overlap in part. No alignment is needed.

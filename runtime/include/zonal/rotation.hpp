@@ -21,7 +21,7 @@ concept RotationSource = requires(const Source& source, T* nine) {
 }  // namespace detail
 
 /// A 3x3 rotation or mirror as the kernels read it: nine values, row-major, acting on column vectors.
-/// It turns the function, not the frame: f'(w) = f(R^T w), so R ex = ey turns f = x into f' = y.
+/// It rotates the function, not the frame: f'(w) = f(R^T w), so R ex = ey makes f' = y of f = x.
 /// Precondition: orthonormal rows; not enforced here (see checked_rotation), for a matrix of rounded values
 /// never is orthonormal exactly. Determinant -1 (a mirror) is allowed.
 /// T is float or double.
@@ -104,7 +104,7 @@ inline double orthonormality_error(const RotationMatrix<float>& rotation) {
     return orthonormality_error(rotation.cast<double>());
 }
 
-/// True when det R < 0: R turns a right hand into a left hand.
+/// True when det R < 0: R makes a left hand of a right hand.
 template <class T>
 constexpr bool is_mirror(const RotationMatrix<T>& rotation) {
     const RotationMatrix<double> r = rotation.template cast<double>();

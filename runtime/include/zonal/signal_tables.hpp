@@ -11,12 +11,13 @@
 namespace zonal {
 
 /// Tables for signal-tailored rotation on a GPU: a static signal, looked up where the lobes come from instead
-/// of being turned. `zonal_orderN_rotate_tailored` of the generated shader orderNN/rotate_tailored.glsl reads them.
+/// of being rotated. `zonal_orderN_rotate_tailored` of the generated shader orderNN/rotate_tailored.glsl
+/// reads them.
 ///
 /// An array of cube maps with mip levels holds the expansions f_l(w) = sum_m f_lm y_lm(w) of bands 2 …
 /// order-1: layer l - 2 is band l, its texels (red, green, blue, 0). Bands 0 and 1 need no table: the shader
-/// turns their four coefficients. Each band is read at one level of its own, coarser for low bands, bilinear
-/// within it.
+/// rotates their four coefficients. Each band is read at one level of its own, coarser for low bands,
+/// bilinear within it.
 ///
 /// Stretched faces: on a face of n texels an edge, column i lies at u = ((2i + 1) / n - 1) / kFaceScale, rows
 /// likewise at v, so a face reaches beyond the edges of the cube by at least half a texel at every level. The

@@ -177,8 +177,8 @@ class Tailored : public testing::TestWithParam<int> {
         }
         // The bound adds what bands lose at worst; in a rotation some of it cancels.
         EXPECT_GT(largest, tables.plan.bound / (5 * order)) << "the bound says nothing";
-        // A row of the README's table.
-        fmt::print("| {} | {:g} | {} | {} | {} | {:.2g} | {:.1e} | {:.1e} |\n", order, budget,
+        // A row of the table in tests/bench/README.md.
+        fmt::print("| {} | {:g} | {} | {}: {} | {:.2g} | {:.1e} | {:.1e} |\n", order, budget,
                    sizeof(T) == 4 ? "32F" : "16F", tables.plan.face_size, fmt::join(tables.plan.levels, " "),
                    static_cast<double>(tables.byte_count()) / 1e6, tables.plan.bound, largest);
     }
