@@ -180,14 +180,15 @@ bool is_made_of_chosen(const OrderKernels& order, const std::string& name) {
     });
 }
 
-/// The command that makes a kernel of one language, or all of them, whatever else the run makes.
+/// The command that makes a kernel of one language, or all of them, whatever else the run makes: in the
+/// folder that is its own, generated/LANGUAGE.
 std::string command_of(const EmitOptions& options, const OrderKernels& order, const std::string& language,
                        const std::string& kernel) {
     const bool has_table = kernel.empty() ? order.tables.chosen != nullptr : is_made_of_chosen(order, kernel);
-    return fmt::format("zonal-gen emit --order {} --language {}{}{}{} --out generated/{}", order.order,
-                       language, kernel.empty() ? "" : " --kernels " + kernel,
+    return fmt::format("zonal-gen emit --order {} --language {}{}{}{}", order.order, language,
+                       kernel.empty() ? "" : " --kernels " + kernel,
                        has_table ? " --table " + shell_word(order.tables.chosen->name) : "",
-                       options.is_optimized ? " --optimize" : "", language);
+                       options.is_optimized ? " --optimize" : "");
 }
 
 /// Each name of --kernels is one that every language has.

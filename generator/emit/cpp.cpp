@@ -62,8 +62,8 @@ const char* const kSupport = R"(#ifndef ZONAL_KERNEL_SUPPORT_HPP
 
 // What T and V of a kernel must have: copies; T, of rotation scalars, construction from a constant,
 // + - * and unary -, and where a kernel says so / and the functions sqrt and copysign; V, of signal
-// values, + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding. Functions
-// of their own are found by argument-dependent lookup; what follows serves float, double and the rest.
+// values, + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding. Their own
+// functions are found by argument-dependent lookup; what follows serves float, double and the rest.
 namespace zonal::kernel_support {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
@@ -263,8 +263,8 @@ std::string print_bound(const Unit& unit, const Kernel& kernel) {
     if (bound == unit.bounds.end()) return "";
     const std::string name = pascal_case(kernel.name);
     return fmt::format(
-        "\n/// Largest relative error of {0} for {1} where R is orthonormal, with fused instructions,\n"
-        "/// and what is added for each unit of |R R^T - I|_F.\n"
+        "\n/// Largest relative error of {0} for {1} where R is orthonormal,\n"
+        "/// with fused instructions, and what is added for each unit of |R R^T - I|_F.\n"
         "inline constexpr double k{2}BoundFloat = {3};\n"
         "inline constexpr double k{2}BoundDouble = {4};\n"
         "inline constexpr double k{2}Excess = {5};\n",

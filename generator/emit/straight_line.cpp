@@ -50,7 +50,16 @@ class StatementPrinter {
     const std::string& text() const { return body_; }
 
   private:
-    void append(const std::string& statement) { body_ += indentation_ + statement + "\n"; }
+    void append(const std::string& statement) {
+        constexpr std::size_t kColumns = 100;
+        if (indentation_.size() + statement.size() <= kColumns) {
+            body_ += indentation_ + statement + "\n";
+            return;
+        }
+        const std::size_t value = statement.find(" = ") + 3;
+        body_ += fmt::format("{0}{1}\n{0}    {2}\n", indentation_, statement.substr(0, value - 1),
+                             statement.substr(value));
+    }
 
     std::string operand(Id id, bool is_negated = false) const {
         const Node& node = kernel_.graph[id];

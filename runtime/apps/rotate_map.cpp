@@ -52,7 +52,9 @@ zonal::RotationMatrix<double> rotation_of(const Options& options) {
                             .next_step = "give three numbers, for instance --axis 1 2 3"});
     }
     const double angle_rad = options.angle_degrees * std::numbers::pi / 180.0;
-    return zonal::RotationMatrix<double>(Eigen::AngleAxisd(angle_rad, axis.stableNormalized()));
+    // Scaled first: the length of an axis of the largest numbers is no number (stableNormalized gives 0).
+    const Eigen::Vector3d scaled = axis / axis.cwiseAbs().maxCoeff();
+    return zonal::RotationMatrix<double>(Eigen::AngleAxisd(angle_rad, scaled.normalized()));
 }
 
 Coefficients rotated_by_kernel(int order, const Coefficients& coefficients,
