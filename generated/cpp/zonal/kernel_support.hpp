@@ -25,8 +25,9 @@
 
 // What T and V of a kernel must have: copies; T, of rotation scalars, construction from a constant,
 // + - * and unary -, and where a kernel says so / and the functions sqrt and copysign; V, of signal
-// values, + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding. Their own
-// functions are found by argument-dependent lookup; what follows serves float, double and the rest.
+// values, + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding.
+// Functions of their own are found by argument-dependent lookup; what follows serves float, double
+// and the rest.
 namespace zonal::kernel_support {
 
 // One instruction where the target has it, a product and a sum elsewhere, never a library call.
