@@ -68,8 +68,8 @@ Words compiled(const std::string& source, ShaderLanguage language) {
                        glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    const auto rules =
-        static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | (is_hlsl ? EShMsgReadHlsl : EShMsgDefault));
+    const auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules |
+                                                (is_hlsl ? EShMsgReadHlsl : EShMsgDefault));
     if (!shader.parse(GetDefaultResources(), 450, false, rules))
         throw std::runtime_error(
             fmt::format("{} cannot be compiled: {}", is_hlsl ? "HLSL" : "GLSL", shader.getInfoLog()));
