@@ -194,6 +194,29 @@ TEST(Emit, the_command_of_a_banner_makes_the_file_again) {
     }
 }
 
+TEST(Emit, a_table_touches_the_files_made_of_it_and_no_others) {
+    const fs::path folder = fresh_folder("touched");
+    std::string table = read(fs::path(ZONAL_SOURCE_DIR) / "generator/tables/shared/order03.json");
+    const std::string key = "\"command\": \"";
+    table.insert(table.find(key) + key.size(), "nice ");  // another file, the same lobes
+    std::ofstream(folder / "other.json") << table;
+    const auto emit = [&](const char* options) {
+        return run(fmt::format("cd '{}' && '{}' emit --order 3 --language cpp {}", folder.string(), ZONAL_GEN,
+                               options))
+            .status;
+    };
+    ASSERT_EQ(emit("--out usual"), 0);
+    ASSERT_EQ(emit("--table other.json --out other"), 0);
+    const auto usual = tree(folder / "usual"), other = tree(folder / "other");
+    ASSERT_EQ(names_of(usual), names_of(other));
+    std::vector<std::string> touched;
+    for (const auto& [name, text] : usual)
+        if (text != other.at(name)) touched.push_back(name);
+    EXPECT_THAT(touched, testing::ElementsAre("zonal/order03.hpp", "zonal/order03/expand.hpp",
+                                              "zonal/order03/factorize.hpp", "zonal/order03/lobes.hpp",
+                                              "zonal/order03/resample.hpp", "zonal/order03/rotate_zhf.hpp"));
+}
+
 TEST(Emit, headers_of_order_4_are_short) {
     const auto lines = [](const char* file) {
         const std::string text = read(fs::path(ZONAL_SOURCE_DIR) / "generated" / file);
