@@ -43,7 +43,7 @@ struct EmitOptions {
     std::string language;
     std::string languages;
     std::string table;
-    std::vector<std::string> kernels;
+    std::string kernels;
     std::string out;
     bool has_twins = false;
     bool is_optimized = false;
@@ -144,7 +144,8 @@ emit::Unit make_unit(const OrderKernels& order, const EmitOptions& options) {
     unit.folder = fmt::format("order{:02}", order.order);
     unit.basis = "real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar";
     unit.kernels = order.kernels;
-    unit.wanted = {options.kernels.begin(), options.kernels.end()};
+    if (!options.kernels.empty())
+        for (const std::string& name : split(options.kernels, ',')) unit.wanted.insert(name);
     for (const graph::Kernel& kernel : unit.kernels)
         for (const TablePointer& source : tables_of(kernel, order.tables))
             unit.tables[kernel.full_name()].push_back(
@@ -191,15 +192,20 @@ std::string command_of(const EmitOptions& options, const OrderKernels& order, co
                        options.is_optimized ? " --optimize" : "");
 }
 
-/// Each name of --kernels is one that every language has.
-void check_kernels(const emit::Unit& unit, const std::string& language, const Files& files) {
+/// Each name of --kernels is one that the language has.
+void check_kernels(emit::Unit unit, const OrderKernels& order, const std::string& language,
+                   const Files& files) {
     std::set<std::string> missing = unit.wanted;
     for (const emit::File& file : files) missing.erase(fs::path(file.path).stem().string());
     if (missing.empty()) return;
+    unit.wanted.clear();
     std::string known;
-    for (const graph::Kernel& kernel : unit.kernels)
-        known += (known.empty() ? "" : ", ") + emit::plain_name(kernel);
-    throw UserError(fmt::format("--kernels: found '{}', which {} has not in {}, wanted some of: {}",
+    for (const emit::File& file : languages().at(language)(unit, order, {})) {
+        const fs::path path = file.path;
+        if (path.parent_path().filename() == unit.folder)
+            known += (known.empty() ? "" : ", ") + path.stem().string();
+    }
+    throw UserError(fmt::format("--kernels: found '{}', wanted some of what {} has in {}: {}",
                                 *missing.begin(), unit.name, language, known));
 }
 
@@ -214,10 +220,15 @@ EmitJobs jobs_of(const EmitOptions& options) {
     const auto check = [](const std::string& name) { find_language("--languages", name); };
     const EmitJobs jobs =
         emit_jobs(orders, options.language.empty() ? options.languages : options.language, check);
-    for (const auto& [order, names] : jobs)
+    bool has_spirv = false;
+    for (const auto& [order, names] : jobs) {
+        has_spirv = has_spirv || std::ranges::find(names, "spirv") != names.end();
         for (const std::string& name : names)
             if ((options.is_optimized || options.is_binary) && name != "spirv")
                 throw UserError(fmt::format("--optimize, --binary: found with {}, wanted spirv alone", name));
+    }
+    if (options.has_twins && !has_spirv)
+        throw UserError("--twins: found without spirv, whose modules have them; wanted spirv too");
     return jobs;
 }
 
@@ -240,7 +251,7 @@ void run(const EmitOptions& options) {
                 return command_of(options, order, name, kernel);
             };
             Files files = languages().at(name)(unit, order, options);
-            check_kernels(unit, name, files);
+            check_kernels(unit, order, name, files);
             for (emit::File& file : files) {
                 file.path = (folder_of(options, name) / file.path).string();
                 if (paths.insert(file.path).second) all.push_back(std::move(file));
@@ -283,7 +294,6 @@ void add_emit_command(CLI::App& app) {
     command
         ->add_option("--kernels", options->kernels,
                      "these kernels only, such as rotate,blocks, and what they call (default: all)")
-        ->delimiter(',')
         ->check(program::not_empty());
     command->add_flag(
         "--twins", options->has_twins,

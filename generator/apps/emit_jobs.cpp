@@ -10,9 +10,7 @@
 #include "program/numbers.hpp"
 
 namespace zonal {
-namespace {
 
-/// Of "3," the second part is empty, as is the only one of "".
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     std::size_t start = 0;
@@ -23,8 +21,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     parts.push_back(text.substr(start));
     return parts;
 }
-
-}  // namespace
 
 std::set<int> orders_of(const std::string& option, const std::string& text, char separator) {
     std::set<int> orders;

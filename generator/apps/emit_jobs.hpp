@@ -8,6 +8,9 @@
 
 namespace zonal {
 
+/// Parts of a text, empty ones too: of "3," the second one, and the only one of "".
+std::vector<std::string> split(const std::string& text, char separator);
+
 /// Orders as text: numbers and ranges joined by `separator`, "3-6,8". Throws `UserError` that names the
 /// option and what it cannot read.
 std::set<int> orders_of(const std::string& option, const std::string& text, char separator = ',');

@@ -7,10 +7,10 @@
 
 int main(int argc, char** argv) {
     CLI::App app{"Generates kernels that rotate real spherical-harmonic vectors."};
-    app.require_subcommand(1);
     zonal::add_search_command(app);
     zonal::add_emit_command(app);
     zonal::add_stats_command(app);
     zonal::add_paper_command(app);
+    zonal::program::require_subcommand(app);
     return zonal::program::run(app, argc, argv);
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "program/shown.hpp"
 
@@ -59,6 +60,19 @@ int run(CLI::App& app, int argc, char** argv, const std::function<void()>& work)
     errno = error;
     if (std::fflush(stdout) != 0 || has_failed) return complain_of_output(errno != 0 ? errno : EIO);
     return problem.empty() ? 0 : complain(problem);
+}
+
+void require_subcommand(CLI::App& app) {
+    app.allow_extras();  // words ahead of a subcommand, none of its own
+    app.parse_complete_callback([&app] {
+        const std::vector<std::string> unknown = app.remaining();
+        if (unknown.empty() && !app.get_subcommands().empty()) return;
+        std::string known;
+        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+            known += (known.empty() ? "" : ", ") + command->get_name();
+        const std::string found = unknown.empty() ? "none" : fmt::format("'{}'", unknown.front());
+        throw CLI::ValidationError("subcommand", fmt::format("found {}, wanted one of: {}", found, known));
+    });
 }
 
 CLI::Validator not_empty() {

@@ -13,6 +13,10 @@ namespace zonal::program {
 int run(
     CLI::App& app, int argc, char** argv, const std::function<void()>& work = [] {});
 
+/// Has `app` take one subcommand, and complain of another word, or of none, before one runs: with those that
+/// there are. After all of them are added.
+void require_subcommand(CLI::App& app);
+
 /// A check of an option: a text of nothing names no file.
 CLI::Validator not_empty();
 

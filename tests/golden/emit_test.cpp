@@ -139,14 +139,19 @@ TEST(Emit, kernels_that_are_named_come_with_what_they_call_and_nothing_else) {
 
 TEST(Emit, a_kernel_that_is_not_there_is_named_before_anything_is_written) {
     const fs::path folder = fresh_folder("no_kernel");
-    for (const char* arguments :
-         {"--order 4 --language cpp --kernels rotate,spin", "--order 4 --language glsl --kernels spin",
-          "--orders 3,4 --languages glsl,cpp --kernels spin"}) {
+    const auto complaint_about = [&](const char* arguments) {
         const Outcome result = zonal_gen(fmt::format("emit {} --out '{}'", arguments, folder.string()));
         EXPECT_EQ(result.status, 1) << arguments;
-        EXPECT_THAT(result.output, AllOf(HasSubstr("--kernels: found 'spin'"), HasSubstr("rotate_accurate")))
-            << arguments;
-    }
+        return result.output;
+    };
+    EXPECT_THAT(complaint_about("--order 4 --language cpp --kernels rotate,spin"),
+                AllOf(HasSubstr("--kernels: found 'spin'"), HasSubstr("rotate_channels, rotate, "),
+                      Not(HasSubstr("kernel_support"))));
+    EXPECT_THAT(complaint_about("--orders 3,4 --languages glsl,cpp --kernels spin"),
+                AllOf(HasSubstr("found 'spin'"), HasSubstr("rotate_tailored")));
+    EXPECT_THAT(complaint_about("--order 4 --language js --kernels blocks"),
+                AllOf(HasSubstr("has in js: rotate, rotate_accurate\n")));
+    EXPECT_THAT(complaint_about("--order 4 --language cpp --kernels rotate,"), HasSubstr("found ''"));
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
@@ -309,6 +314,9 @@ TEST(Emit, options_of_spirv_are_refused_elsewhere) {
     const Outcome result = zonal_gen("emit --order 3 --language glsl --optimize");
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.output, AllOf(HasSubstr("--optimize"), HasSubstr("glsl"), HasSubstr("wanted spirv")));
+    const Outcome twins = zonal_gen("emit --order 3 --language glsl --twins");
+    EXPECT_EQ(twins.status, 1);
+    EXPECT_THAT(twins.output, AllOf(HasSubstr("--twins: found without spirv"), HasSubstr("wanted spirv")));
 }
 
 TEST(Emit, wgsl_has_a_function_for_channels_too) {
@@ -391,6 +399,16 @@ TEST(Emit, a_table_that_cannot_serve_gets_advice_that_helps) {
     EXPECT_THAT(complaint_about(4, folder / "shared/order05.json"),
                 AllOf(HasSubstr("order: found 5, wanted 4"), Not(HasSubstr("restore"))));
     EXPECT_THAT(complaint_about(2, folder / "shared/order03.json"), HasSubstr("drop --table"));
+}
+
+TEST(Emit, an_unknown_subcommand_is_named_with_the_known_ones) {
+    for (const char* arguments : {"frob", "frob emit --order 3 --language cpp", ""}) {
+        const Outcome result = zonal_gen(arguments);
+        EXPECT_EQ(result.status, 1) << arguments;
+        EXPECT_THAT(result.output, AllOf(HasSubstr(*arguments == 0 ? "found none" : "found 'frob'"),
+                                         HasSubstr("search, emit, stats, paper")))
+            << arguments;
+    }
 }
 
 TEST(Emit, an_unknown_language_is_named_with_the_known_ones) {
