@@ -71,6 +71,7 @@ is_open {
 }
 END { if (!failed && kernels == 0 && !includes) fail("found no kernel and no header to include") }
 /^#include "/ { includes = 1 }
+/^#ifndef ZONAL_KERNEL_/ { includes = 1 } # what kernels share
 AWK
 
 # One header, by every compiler.
