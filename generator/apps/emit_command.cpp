@@ -195,16 +195,21 @@ std::string command_of(const EmitOptions& options, const OrderKernels& order, co
 /// Each name of --kernels is one that the language has.
 void check_kernels(emit::Unit unit, const OrderKernels& order, const std::string& language,
                    const Files& files) {
+    const auto kernels_of = [&](const Files& written) {
+        std::vector<std::string> names;
+        for (const emit::File& file : written) {
+            const fs::path path = file.path;
+            if (path.parent_path().filename() == unit.folder) names.push_back(path.stem().string());
+        }
+        return names;
+    };
     std::set<std::string> missing = unit.wanted;
-    for (const emit::File& file : files) missing.erase(fs::path(file.path).stem().string());
+    for (const std::string& name : kernels_of(files)) missing.erase(name);
     if (missing.empty()) return;
     unit.wanted.clear();
     std::string known;
-    for (const emit::File& file : languages().at(language)(unit, order, {})) {
-        const fs::path path = file.path;
-        if (path.parent_path().filename() == unit.folder)
-            known += (known.empty() ? "" : ", ") + path.stem().string();
-    }
+    for (const std::string& name : kernels_of(languages().at(language)(unit, order, {})))
+        known += (known.empty() ? "" : ", ") + name;
     throw UserError(fmt::format("--kernels: found '{}', wanted some of what {} has in {}: {}",
                                 *missing.begin(), unit.name, language, known));
 }

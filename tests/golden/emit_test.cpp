@@ -152,6 +152,8 @@ TEST(Emit, a_kernel_that_is_not_there_is_named_before_anything_is_written) {
     EXPECT_THAT(complaint_about("--order 4 --language js --kernels blocks"),
                 AllOf(HasSubstr("has in js: rotate, rotate_accurate\n")));
     EXPECT_THAT(complaint_about("--order 4 --language cpp --kernels rotate,"), HasSubstr("found ''"));
+    EXPECT_THAT(complaint_about("--order 4 --language cpp --kernels kernel_support"),
+                HasSubstr("found 'kernel_support'"));
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
