@@ -287,7 +287,7 @@ File print_kernel(const Unit& unit, const Kernel& kernel) {
 
 /// The header of all kernels, and what a caller needs to know at compile time.
 File print_order(const Unit& unit) {
-    std::string text = comment("//", opening_lines(unit, "", {})) + "#pragma once\n\n";
+    std::string text = comment("//", opening_lines(unit, unit.command(""), {})) + "#pragma once\n\n";
     for (const Kernel& kernel : unit.kernels)
         text += fmt::format("#include \"{}/{}.hpp\"\n", unit.folder, plain_name(kernel));
     text += fmt::format("\nnamespace zonal::{} {{\n", unit.name);

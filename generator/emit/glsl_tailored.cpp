@@ -43,7 +43,8 @@ std::vector<std::string> cost_texts(const Unit& unit, const TailoredRotation& ro
 }
 
 std::string banner(const Unit& unit, const TailoredRotation& rotation) {
-    std::vector<std::string> lines = opening_lines(unit, kTailoredName, unit.tables.at("resample"));
+    std::vector<std::string> lines =
+        opening_lines(unit, unit.command(kTailoredName), unit.tables.at("resample"));
     append_key(lines, "cost", cost_texts(unit, rotation));
     append_key(lines, "bound", {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
     append_key(lines, "source", graph::kernel_named(unit.kernels, "resample").sources);

@@ -15,10 +15,9 @@ using graph::Kernel;
 /// The comment in front of a module. `name`: under which it is emitted; `kernel`: whose graph it holds.
 std::string opening(const Unit& unit, const std::string& name, Kernel kernel, const SpirvForm& form) {
     kernel.has_bound &= !form.is_precise;  // bounds are those of fused instructions
-    Unit named = unit;
     const bool is_twin = form.is_precise || form.has_channels;
-    named.command = [&](const std::string&) { return unit.command(name) + (is_twin ? " --twins" : ""); };
-    std::string text = comment(";", banner_lines(named, kernel)) + ";\n" +
+    const std::string command = unit.command(name) + (is_twin ? " --twins" : "");
+    std::string text = comment(";", banner_lines(unit, kernel, command)) + ";\n" +
                        comment(";", purpose_lines(kernel)) + comment(";", precondition_lines(kernel));
     if (form.is_precise)
         text += comment(";", {"Never contracted: a product and a sum for each fma of the cost. The bits are "

@@ -12,9 +12,12 @@ namespace zonal::emit {
 /// The banner that the file of a kernel opens with, one line an entry, without comment signs: the fixed keys
 /// command, table, basis, cost, bound, source in that order.
 std::vector<std::string> banner_lines(const Unit& unit, const graph::Kernel& kernel);
+/// The same for a file that another command makes.
+std::vector<std::string> banner_lines(const Unit& unit, const graph::Kernel& kernel,
+                                      const std::string& command);
 
-/// The first of them: command, table and basis. `kernel`: plain name of the file's kernel; empty: of all.
-std::vector<std::string> opening_lines(const Unit& unit, const std::string& kernel,
+/// The first of them: command, table and basis.
+std::vector<std::string> opening_lines(const Unit& unit, const std::string& command,
                                        const std::vector<std::string>& tables);
 
 /// Appends a key of the banner and its values, one a line: "key     : first", "          second" …
