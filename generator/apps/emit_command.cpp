@@ -12,11 +12,11 @@
 #include <string_view>
 
 #include "apps/emit_jobs.hpp"
+#include "bounds/chosen_rotate.hpp"
 #include "bounds/published.hpp"
 #include "emit/cpp.hpp"
 #include "emit/dialects.hpp"
 #include "emit/file.hpp"
-#include "emit/glsl_tailored.hpp"
 #include "emit/js.hpp"
 #include "emit/spirv.hpp"
 #include "emit/spirv_tools.hpp"
@@ -24,9 +24,10 @@
 #include "emit/wgsl.hpp"
 #include "io/output_file.hpp"
 #include "io/user_error.hpp"
+#include "kernels/glsl_tailored.hpp"
 #include "kernels/lobes.hpp"
 #include "kernels/order_kernels.hpp"
-#include "kernels/registry.hpp"
+#include "kernels/rotate_choice.hpp"
 #include "program/numbers.hpp"
 #include "program/program.hpp"
 #include "program/shown.hpp"
@@ -69,43 +70,42 @@ Files spirv_files(const emit::Unit& unit, const EmitOptions& options) {
     return files;
 }
 
-/// Bands 0 and 1 are those of an order-2 signal: they turn by its kernel, exactly, and need no table.
-emit::TailoredRotation tailored_rotation(const kernels::LobeSet& lobes) {
-    constexpr int kLowBands = 2;
-    emit::TailoredRotation rotation;
-    rotation.rotate_low = graph::kernel_named(kernels::build_order(kLowBands, {}), "rotate");
-    rotation.rotate_low.name = "rotate_low";
-    rotation.rotate_low.summary = "Rotates bands 0 and 1: f'(w) = f(R^T w).";
-    for (int l = kLowBands; l < lobes.order; ++l)
-        rotation.bands.push_back({l, lobes.weight_start(l), l * l, 2 * l + 1, lobes.lobes_of[l]});
-    return rotation;
-}
-
 Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
     Files files = emit::print_shader_functions(unit, emit::kGlsl);
-    if (order.tables.shared && unit.wants(emit::kTailoredName))
-        files.push_back(emit::print_glsl_tailored(
-            unit, tailored_rotation(kernels::LobeSet::shared(order.tables.shared->table))));
+    if (order.tables.shared && unit.wants(kernels::kTailoredName))
+        files.push_back(
+            kernels::print_glsl_tailored(unit, kernels::LobeSet::shared(order.tables.shared->table)));
     return files;
 }
 
-using Language = std::function<Files(const emit::Unit&, const OrderKernels&, const EmitOptions&)>;
+/// What writes a language, and where its code runs.
+struct Language {
+    kernels::Processor processor;
+    std::function<Files(const emit::Unit&, const OrderKernels&, const EmitOptions&)> print;
+};
 
 /// Adding a language is one entry here.
 const std::map<std::string, Language>& languages() {
+    using enum kernels::Processor;
     static const std::map<std::string, Language> all{
-        {"cpp", [](const emit::Unit& unit, const OrderKernels&,
-                   const EmitOptions&) { return emit::print_cpp(unit); }},
-        {"glsl", [](const emit::Unit& unit, const OrderKernels& order,
-                    const EmitOptions&) { return glsl_files(unit, order); }},
-        {"hlsl", [](const emit::Unit& unit, const OrderKernels&,
-                    const EmitOptions&) { return emit::print_shader_functions(unit, emit::kHlsl); }},
-        {"js", [](const emit::Unit& unit, const OrderKernels&,
-                  const EmitOptions&) { return emit::print_js(unit); }},
-        {"spirv", [](const emit::Unit& unit, const OrderKernels&,
-                     const EmitOptions& options) { return spirv_files(unit, options); }},
-        {"wgsl", [](const emit::Unit& unit, const OrderKernels&,
-                    const EmitOptions&) { return emit::print_wgsl(unit); }},
+        {"cpp",
+         {cpu, [](const emit::Unit& unit, const OrderKernels&,
+                  const EmitOptions&) { return emit::print_cpp(unit); }}},
+        {"glsl",
+         {gpu, [](const emit::Unit& unit, const OrderKernels& order,
+                  const EmitOptions&) { return glsl_files(unit, order); }}},
+        {"hlsl",
+         {gpu, [](const emit::Unit& unit, const OrderKernels&,
+                  const EmitOptions&) { return emit::print_shader_functions(unit, emit::kHlsl); }}},
+        {"js",
+         {cpu, [](const emit::Unit& unit, const OrderKernels&,
+                  const EmitOptions&) { return emit::print_js(unit); }}},
+        {"spirv",
+         {gpu, [](const emit::Unit& unit, const OrderKernels&,
+                  const EmitOptions& options) { return spirv_files(unit, options); }}},
+        {"wgsl",
+         {gpu, [](const emit::Unit& unit, const OrderKernels&,
+                  const EmitOptions&) { return emit::print_wgsl(unit); }}},
     };
     return all;
 }
@@ -137,8 +137,15 @@ std::vector<TablePointer> tables_of(const graph::Kernel& kernel, const OrderTabl
     return {kernel.name == "rotate_zhf" ? tables.rotate_zhf : tables.shared};
 }
 
+/// Puts `rotate` in front: what that processor does fastest within bounds.
+void add_rotate(emit::Unit& unit, const OrderKernels& order, kernels::Processor processor) {
+    const kernels::RotateChoice choice = chosen_rotate(order, processor);
+    unit.kernels.insert(unit.kernels.begin(), kernels::make_rotate(order.kernels, choice));
+    unit.bounds["rotate"] = unit.bounds.at(choice.one);
+}
+
 /// All but the command.
-emit::Unit make_unit(const OrderKernels& order, const EmitOptions& options) {
+emit::Unit make_unit(const OrderKernels& order, kernels::Processor processor, const EmitOptions& options) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", order.order);
     unit.folder = fmt::format("order{:02}", order.order);
@@ -154,26 +161,24 @@ emit::Unit make_unit(const OrderKernels& order, const EmitOptions& options) {
     const auto has = [&](const auto& is_wanted) {
         return std::ranges::any_of(unit.kernels, is_wanted) ? 1 : 0;
     };
+    add_rotate(unit, order, processor);
     const graph::Kernel& prepare = graph::kernel_named(order.kernels, "prepare");
-    const bool takes_mirrors =
-        !graph::kernel_named(order.kernels, "rotate").needs_proper_rotation && !prepare.needs_proper_rotation;
+    const bool takes_mirrors = !unit.kernels.front().needs_proper_rotation && !prepare.needs_proper_rotation;
     unit.constants = {
         {"kHasLobes", order.tables.shared ? 1 : 0, "1 where the lobe kernels are here, else 0"},
         {"kHasPerBandLobes", has([](const graph::Kernel& kernel) { return kernel.variant == "per_band"; }),
          "1 where lobes of each band's own are here, else 0"},
-        {"kHasPolynomial",
-         has([](const graph::Kernel& kernel) { return kernel.name == "rotate_polynomial"; }),
-         "1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0"},
+        {"kHasTensor", has([](const graph::Kernel& kernel) { return kernel.name == "rotate_tensor"; }),
+         "1 where `rotate_tensor` is here: every band can be contracted; else 0"},
         {"kScalars", prepare.output.size, "Values that `prepare` makes"},
-        {"kTakesMirrors", takes_mirrors ? 1 : 0,
-         "1 where `rotate` of one channel and `prepare` take det R = -1, else 0"}};
+        {"kTakesMirrors", takes_mirrors ? 1 : 0, "1 where `rotate` and `prepare` take det R = -1, else 0"}};
     return unit;
 }
 
 /// Whether a kernel, by its plain name, is made of the table that --table names.
 bool is_made_of_chosen(const OrderKernels& order, const std::string& name) {
     if (!order.tables.chosen) return false;
-    const std::string maker = name == emit::kTailoredName ? "resample" : name;
+    const std::string maker = name == kernels::kTailoredName ? "resample" : name;
     return std::ranges::any_of(order.kernels, [&](const graph::Kernel& kernel) {
         const std::vector<TablePointer> tables = tables_of(kernel, order.tables);
         return emit::plain_name(kernel) == maker &&
@@ -208,7 +213,7 @@ void check_kernels(emit::Unit unit, const OrderKernels& order, const std::string
     if (missing.empty()) return;
     unit.wanted.clear();
     std::string known;
-    for (const std::string& name : kernels_of(languages().at(language)(unit, order, {})))
+    for (const std::string& name : kernels_of(languages().at(language).print(unit, order, {})))
         known += (known.empty() ? "" : ", ") + name;
     throw UserError(fmt::format("--kernels: found '{}', wanted some of what {} has in {}: {}",
                                 *missing.begin(), unit.name, language, known));
@@ -250,12 +255,13 @@ void run(const EmitOptions& options) {
     std::set<std::string> paths;  // orders share files
     for (const auto& [number, names] : jobs_of(options)) {
         const OrderKernels order = build_order_kernels(shelf, number, options.table);
-        emit::Unit unit = make_unit(order, options);
         for (const std::string& name : names) {
+            const Language& language = languages().at(name);
+            emit::Unit unit = make_unit(order, language.processor, options);
             unit.command = [&](const std::string& kernel) {
                 return command_of(options, order, name, kernel);
             };
-            Files files = languages().at(name)(unit, order, options);
+            Files files = language.print(unit, order, options);
             check_kernels(unit, order, name, files);
             for (emit::File& file : files) {
                 file.path = (folder_of(options, name) / file.path).string();

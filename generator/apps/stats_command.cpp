@@ -6,6 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bounds/chosen_rotate.hpp"
+#include "graph/call_time.hpp"
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
 #include "kernels/lobes.hpp"
@@ -41,6 +43,7 @@ Json to_json(const graph::Kernel& kernel) {
     json["instructions"] = cost.total().instructions();
     json["per_rotation"] = to_json(cost.per_rotation);
     json["per_vector"] = to_json(cost.per_vector);
+    if (kernel.name.starts_with("rotate")) json["cycles"] = graph::call_cycles(kernel);
     json["peak_live_values"] = graph::peak_live_values(kernel, statements);
     json["spills"] = {{"16", to_json(graph::simulate_spills(kernel, statements, 16))},
                       {"32", to_json(graph::simulate_spills(kernel, statements, 32))}};
@@ -53,16 +56,21 @@ Json methods_to_json(int order, const kernels::OrderPlans& plans) {
     for (int l = 1; l < order; ++l) {
         Json others = Json::array();
         for (const kernels::Alternative& way : kernels::alternatives(order, l))
-            others.push_back({{"method", kernels::name_of(way.plan)},
+            others.push_back({{"method", way.method->name},
                               {"per_rotation", to_json(way.cost.per_rotation)},
                               {"per_vector", to_json(way.cost.per_vector)}});
         bands.push_back({{"band", l},
-                         {"rotate", kernels::name_of(plans.one[l - 1])},
-                         {"rotate_channels", kernels::name_of(plans.channels[l - 1])},
-                         {"apply", kernels::name_of(plans.many[l - 1])},
+                         {"rotate_fewest", plans.one[l - 1]->name},
+                         {"rotate_channels", plans.channels[l - 1]->name},
+                         {"apply", plans.many[l - 1]->name},
                          {"alternatives", others}});
     }
     return bands;
+}
+
+/// What `rotate` is.
+Json to_json(const kernels::RotateChoice& choice) {
+    return {{"one_channel", choice.one}, {"several_channels", choice.channels}};
 }
 
 /// Bands 2 … N-1.
@@ -104,9 +112,12 @@ Json to_json(const OrderKernels& order) {
     }
     if (!tables.per_band.empty()) json["per_band"] = to_json(tables.per_band);
     json["methods"] = methods_to_json(order.order, order.plans);
-    Json kernels;
-    for (const graph::Kernel& kernel : order.kernels) kernels[kernel.full_name()] = to_json(kernel);
-    json["kernels"] = kernels;
+    const kernels::RotateChoice on_cpu = chosen_rotate(order, kernels::Processor::cpu);
+    json["rotate"] = {{"cpu", to_json(on_cpu)},
+                      {"gpu", to_json(chosen_rotate(order, kernels::Processor::gpu))}};
+    Json& counted = json["kernels"];
+    counted["rotate"] = to_json(kernels::make_rotate(order.kernels, on_cpu));
+    for (const graph::Kernel& kernel : order.kernels) counted[kernel.full_name()] = to_json(kernel);
     return json;
 }
 
@@ -119,9 +130,9 @@ void print_table(const Json& stats) {
                        band["multiplications"].get<int>(), band["cond"].get<double>());
         fmt::print("\n");
     }
-    fmt::print("{:<6}{}\n", "band", "method of rotate");
+    fmt::print("{:<6}{}\n", "band", "method of rotate_fewest");
     for (const Json& band : stats["methods"])
-        fmt::print("{:<6}{}\n", band["band"].get<int>(), band["rotate"].get<std::string>());
+        fmt::print("{:<6}{}\n", band["band"].get<int>(), band["rotate_fewest"].get<std::string>());
     fmt::print("\n{:<20}{:>6}{:>6}{:>6}{:>7}   {}\n", "kernel", "mul", "add", "fma", "other",
                "of these once per rotation (mul add fma other)");
     for (const auto& [name, kernel] : stats["kernels"].items()) {

@@ -138,7 +138,7 @@ std::string parameters(const Kernel& kernel) {
     std::string text;
     for (int k = 0; k < static_cast<int>(kernel.inputs.size()); ++k) {
         const graph::Array& array = kernel.inputs[k];
-        const bool is_read = reads(kernel, k) || !kernel.for_channels.empty();
+        const bool is_read = reads(kernel, k) || !kernel.for_channels.empty() || !kernel.forwards_to.empty();
         text += fmt::format("const {}* {}, ", type_of(array.kind),
                             is_read ? array.name : fmt::format("/*{}*/", array.name));
     }
@@ -164,6 +164,11 @@ bool has_pole(const Kernel& kernel) {
     return false;
 }
 
+/// The same of either form, since T and V choose between them.
+bool has_pole(const Unit& unit, const Kernel& kernel) {
+    return has_pole(kernel) || has_pole(for_channels(unit, kernel));
+}
+
 std::string kernel_comment(const Unit& unit, const Kernel& kernel) {
     const graph::Array& last = kernel.inputs.back();
     std::vector<std::string> lines = purpose_lines(kernel);
@@ -175,10 +180,10 @@ std::string kernel_comment(const Unit& unit, const Kernel& kernel) {
     if (!kernel.for_channels.empty())
         lines.push_back(
             fmt::format("Where V is not T, a value of several channels, this is {}.", kernel.for_channels));
-    if (has_pole(kernel)) lines.push_back("T needs /, sqrt and copysign too.");
+    if (has_pole(unit, kernel)) lines.push_back("T needs /, sqrt and copysign too.");
     if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
         lines.push_back(
-            has_pole(kernel)
+            has_pole(unit, kernel)
                 ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
                 : "May be differentiated: T and V may be numbers that carry derivatives.");
     append(lines, closing_lines(unit, kernel));
@@ -238,20 +243,35 @@ bool needs_helpers(const Kernel& kernel) {
     return is_table_driven(kernel);
 }
 
+std::string print_call(const std::string& name, const Kernel& kernel, int indentation) {
+    std::string arguments;
+    for (const graph::Array& array : kernel.inputs) arguments += array.name + ", ";
+    return fmt::format("{:{}}{}({}{});\n", "", indentation, name, arguments, kernel.output.name);
+}
+
 std::string print_function(const Unit& unit, const Kernel& kernel) {
-    const Body body = body_of(kernel);
+    const bool has_own_body = kernel.forwards_to.empty();
+    const Body body =
+        has_own_body
+            ? body_of(kernel)
+            : Body{"", [&](int indentation) { return print_call(kernel.forwards_to, kernel, indentation); }};
     // Static: a copy for each file, compiled as that file is.
     const std::string head =
         fmt::format("{}\n{}{}ZONAL_HOST_DEVICE static void {}({}) {{\n{}", body.tables,
                     kernel_comment(unit, kernel), template_line(kernel), kernel.name, parameters(kernel),
-                    needs_helpers(kernel) ? "    using namespace kernel_support;\n" : "");
+                    has_own_body && needs_helpers(kernel) ? "    using namespace kernel_support;\n" : "");
     if (kernel.for_channels.empty()) return head + body.print(4) + "}\n";
-    std::string arguments;
-    for (const graph::Array& array : kernel.inputs) arguments += array.name + ", ";
-    return head + fmt::format(
-                      "    if constexpr (!std::is_same_v<T, V>) {{\n        {}({}{});\n    }} else {{\n{}    "
-                      "}}\n}}\n",
-                      kernel.for_channels, arguments, kernel.output.name, body.print(8));
+    return head + fmt::format("    if constexpr (!std::is_same_v<T, V>) {{\n{}    }} else {{\n{}    }}\n}}\n",
+                              print_call(kernel.for_channels, kernel, 8), body.print(8));
+}
+
+/// The kernels that this one calls, by plain name.
+std::vector<std::string> called_by(const Unit& unit, const Kernel& kernel) {
+    std::vector<std::string> names;
+    if (!kernel.forwards_to.empty())
+        names.push_back(plain_name(graph::kernel_named(unit.kernels, kernel.forwards_to)));
+    if (!kernel.for_channels.empty()) names.push_back(plain_name(for_channels(unit, kernel)));
+    return names;
 }
 
 std::string print_constant(const Constant& constant) {
@@ -276,8 +296,8 @@ std::string print_bound(const Unit& unit, const Kernel& kernel) {
 File print_kernel(const Unit& unit, const Kernel& kernel) {
     std::string text = comment("//", banner_lines(unit, kernel)) + "#pragma once\n\n";
     text += fmt::format("#include \"../{}.hpp\"\n", is_table_driven(kernel) ? kTablesName : kSupportName);
-    if (!kernel.for_channels.empty())
-        text += fmt::format("#include \"{}.hpp\"\n", plain_name(for_channels(unit, kernel)));
+    for (const std::string& name : called_by(unit, kernel))
+        text += fmt::format("#include \"{}.hpp\"\n", name);
     const std::string place =
         fmt::format("zonal::{}{}{}", unit.name, kernel.variant.empty() ? "" : "::", kernel.variant);
     text += fmt::format("\nnamespace {} {{\n{}", place, print_bound(unit, kernel));
@@ -296,14 +316,20 @@ File print_order(const Unit& unit) {
             text + fmt::format("\n}}  // namespace zonal::{}\n", unit.name)};
 }
 
-/// The kernels that are wanted, and those that they call.
+/// Adds a kernel, and those that it calls.
+void want(std::set<std::string>& names, const Unit& unit, const std::string& name) {
+    const auto kernel = std::ranges::find(unit.kernels, name, plain_name);
+    if (kernel == unit.kernels.end() || !names.insert(name).second) return;
+    for (const std::string& called : called_by(unit, *kernel)) want(names, unit, called);
+}
+
 std::vector<Kernel> kernels_to_print(const Unit& unit) {
-    std::set<std::string> names = unit.wanted;
-    for (const Kernel& kernel : unit.kernels)
-        if (names.contains(plain_name(kernel))) names.insert(plain_name(for_channels(unit, kernel)));
+    if (unit.wanted.empty()) return unit.kernels;
+    std::set<std::string> names;
+    for (const std::string& name : unit.wanted) want(names, unit, name);
     std::vector<Kernel> kernels;
     for (const Kernel& kernel : unit.kernels)
-        if (names.empty() || names.contains(plain_name(kernel))) kernels.push_back(kernel);
+        if (names.contains(plain_name(kernel))) kernels.push_back(kernel);
     return kernels;
 }
 

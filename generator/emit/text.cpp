@@ -126,10 +126,7 @@ const graph::Kernel& for_channels(const Unit& unit, const graph::Kernel& kernel)
 std::vector<graph::Kernel> shader_kernels(const Unit& unit) {
     std::vector<graph::Kernel> kernels;
     for (const graph::Kernel& kernel : unit.kernels) {
-        const bool is_form = std::ranges::any_of(unit.kernels, [&](const graph::Kernel& other) {
-            return other.for_channels == kernel.name && other.variant == kernel.variant;
-        });
-        if (!is_form && unit.wants(plain_name(kernel))) kernels.push_back(kernel);
+        if (!kernel.is_for_channels && unit.wants(plain_name(kernel))) kernels.push_back(kernel);
     }
     return kernels;
 }

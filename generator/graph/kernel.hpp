@@ -41,6 +41,10 @@ struct Kernel {
     bool needs_proper_rotation = false;  ///< right for determinant +1 only
     /// The kernel to call instead where a signal value holds several channels; empty: this one.
     std::string for_channels;
+    bool is_for_channels = false;  ///< languages with overloads give it the name of the kernel that it serves
+    /// The kernel of the same graph that a language with functions calls instead of repeating the body;
+    /// empty: none.
+    std::string forwards_to;
     bool needs_lobes = false;  ///< built from a lobe table
     bool has_bound = false;    ///< an error bound is published for it
 

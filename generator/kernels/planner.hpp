@@ -1,13 +1,11 @@
 #pragma once
 
-#include <compare>
 #include <map>
-#include <string>
 #include <vector>
 
 #include "graph/counts.hpp"
 #include "graph/kernel.hpp"
-#include "kernels/zxzxz.hpp"
+#include "kernels/band_methods.hpp"
 
 namespace zonal::kernels {
 
@@ -17,34 +15,22 @@ struct Workload {
     bool takes_mirrors = false;  ///< determinant -1 must come out right without the caller's help
 };
 
-enum class BandMethod { contraction, direct_contraction, proper_contraction, zxzxz, dense };
-
-/// How one band is turned.
-struct BandPlan {
-    BandMethod method = BandMethod::contraction;
-    BandForms forms;  ///< zxzxz only
-    friend auto operator<=>(const BandPlan&, const BandPlan&) = default;
-};
-
-/// How every band from 1 on is turned: entry l - 1 belongs to band l.
-using Plan = std::vector<BandPlan>;
-
-/// "contraction", "zxzxz, even update, odd transform", …
-std::string name_of(const BandPlan& plan);
+/// How every band from 1 on is rotated: entry l - 1 belongs to band l.
+using Plan = std::vector<const BandMethod*>;
 
 /// Instructions for a workload, a division or root counted as eight: what `cheapest_plan` minimizes.
 int weight(const graph::Kernel& kernel, const Workload& workload);
 
-/// Turns the bands that are planned: f' from the rotation (input 0) and f (input 1), optimized. Name and
+/// Rotates the bands that are planned: f' from the rotation (input 0) and f (input 1), optimized. Name and
 /// texts are the caller's.
 graph::Kernel build_plan(int order, const Plan& plan);
 
-/// Whether a plan of an order for a workload may turn a band so.
-bool is_fit_for(const BandPlan& plan, int order, const Workload& workload);
+/// Whether a plan of an order for a workload may have it.
+bool is_fit_for(const BandMethod& method, int order, const Workload& workload);
 
-/// One way to turn a band, and what it alone costs (set-up that bands share left out).
+/// One way to rotate a band, and what it alone costs (set-up that bands share left out).
 struct Alternative {
-    BandPlan plan;
+    const BandMethod* method = nullptr;
     graph::Cost cost;
 };
 std::vector<Alternative> alternatives(int order, int l);
@@ -59,7 +45,7 @@ class Planner {
     Plan cheapest(const Workload& workload);
 
   private:
-    std::vector<std::vector<BandPlan>> candidates(const Workload& workload) const;
+    std::vector<Plan> candidates(const Workload& workload) const;
     int weight_of(const Plan& plan, const Workload& workload);
 
     int order_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "graph/passes.hpp"
+#include "kernels/band_methods.hpp"
 #include "kernels/contraction.hpp"
 #include "kernels/dense_blocks.hpp"
 #include "kernels/planner.hpp"
@@ -18,28 +19,10 @@ using graph::Kind;
 using graph::Value;
 
 const char* const kTurnsTheFunction = "Turns the function, not the frame: f'(w) = f(R^T w).";
-const char* const kDenseSource = "Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998";
-
 std::vector<std::string> sources_of(const Plan& plan) {
     std::vector<std::string> sources;
-    const auto add = [&](const char* source) {
-        if (std::find(sources.begin(), sources.end(), source) == sources.end()) sources.emplace_back(source);
-    };
-    for (const BandPlan& band : plan) {
-        switch (band.method) {
-            case BandMethod::contraction:
-            case BandMethod::direct_contraction:
-            case BandMethod::proper_contraction:
-                add("low bands as tensors, contracted with the rows of R");
-                break;
-            case BandMethod::zxzxz:
-                add("Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles");
-                break;
-            case BandMethod::dense:
-                add(kDenseSource);
-                break;
-        }
-    }
+    for (const BandMethod* method : plan)
+        if (std::ranges::find(sources, method->source) == sources.end()) sources.push_back(method->source);
     return sources;
 }
 
@@ -59,7 +42,7 @@ Kernel build_blocks(int order) {
     kernel.summary =
         "The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.\n"
         "Turns the function, not the frame.";
-    kernel.sources = {kDenseSource};
+    kernel.sources = {band_method("dense").source};
     kernel.inputs = {rotation_array()};
     kernel.output = {"dense", Kind::rotation, order * (4 * order * order - 1) / 3,
                      "row-major (2l+1) x (2l+1) for l = 0, 1, ..."};
@@ -91,9 +74,12 @@ OrderPlans plan_order(int order) {
 }
 
 std::vector<Kernel> build_rotations(int order, const OrderPlans& plans) {
-    Kernel one = planned("rotate", "The cheapest exact rotation of one vector.", order, plans.one);
-    const Kernel channels = planned(
-        "rotate_channels", "The cheapest exact rotation of three vectors at once.", order, plans.channels);
+    Kernel fewest = planned("rotate_fewest", "The exact rotation of one vector by the fewest instructions.",
+                            order, plans.one);
+    Kernel channels =
+        planned("rotate_channels", "The exact rotation of three vectors at once by the fewest instructions.",
+                order, plans.channels);
+    channels.is_for_channels = true;
     graph::Halves halves = graph::split_by_kind(planned("apply", "", order, plans.many));
     halves.prepare.name = "prepare";
     halves.prepare.summary =
@@ -110,23 +96,22 @@ std::vector<Kernel> build_rotations(int order, const OrderPlans& plans) {
 
     // Where a contraction knows every band, it needs about half the instructions of dense blocks.
     const bool is_contracted = order - 1 <= kLargestContractionBand;
-    Plan accurate(order - 1, {is_contracted ? BandMethod::direct_contraction : BandMethod::dense, {}});
-    if (order > 1) accurate[0] = {BandMethod::contraction, {}};
+    const Plan contracted(order - 1, &band_method("contraction"));
+    Plan accurate(order - 1, &band_method(is_contracted ? "contraction, read directly" : "dense"));
+    accurate[0] = contracted[0];
     std::vector<Kernel> kernels;
-    if (!is_same_work(one, channels)) {
-        one.for_channels = channels.name;
+    if (!is_same_work(fewest, channels)) {
+        fewest.for_channels = channels.name;
         kernels.push_back(channels);
     }
-    kernels.push_back(one);
     if (is_contracted) {
-        const Plan contracted(order - 1, {BandMethod::contraction, {}});
-        const Kernel polynomial =
-            planned("rotate_polynomial",
-                    "The cheapest exact rotation by products and sums alone, mirrors included:\n"
-                    "no division, no root, no pole.",
-                    order, contracted);
-        if (!is_same_work(one, polynomial)) kernels.push_back(polynomial);
+        kernels.push_back(planned(
+            "rotate_tensor",
+            "The exact rotation by products and sums alone, mirrors included: no division, root or pole.",
+            order, contracted));
+        if (plans.one == contracted) fewest.forwards_to = kernels.back().name;
     }
+    kernels.push_back(fewest);
     kernels.push_back(halves.prepare);
     kernels.push_back(halves.apply);
     kernels.push_back(

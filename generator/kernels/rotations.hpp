@@ -14,12 +14,13 @@ struct OrderPlans {
 OrderPlans plan_order(int order);
 
 /// The kernels of an order that need no lobe table, optimized:
-/// - `rotate_channels`: the cheapest for three vectors of one rotation, where that is another kernel;
-/// - `rotate`: the cheapest for one vector; a signal value of several channels goes to `rotate_channels`;
-/// - `rotate_polynomial`: the cheapest for one vector by products and sums alone, where every band can be
-///   contracted and `rotate` does other work;
+/// - `rotate_channels`: the fewest instructions for three vectors of one rotation, where that is another
+///   kernel;
+/// - `rotate_fewest`: the same for one vector; a signal value of several channels goes to `rotate_channels`;
+/// - `rotate_tensor`: products and sums alone, where every band can be contracted;
 /// - `prepare`, `apply`: the cheapest for many vectors of one rotation, in its two halves;
-/// - `rotate_accurate`: dense blocks, built and applied;
+/// - `rotate_accurate`: contractions read directly where every band has one, else dense blocks, built and
+///   applied;
 /// - `blocks`: dense blocks.
 std::vector<graph::Kernel> build_rotations(int order, const OrderPlans& plans);
 

@@ -50,7 +50,7 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
         const auto rotations = static_cast<int>(cases::some_of(order <= 5 ? 20 : 4));
         const double worst = worst_of_rotations(order, kernel, rotations);
         EXPECT_LE(worst, std::stod(bounds.at(name).excess_text)) << name;
-        const bool is_shifted = name == "rotate_polynomial" || (order == 3 && name == "rotate");
+        const bool is_shifted = name == "rotate_tensor" || (order == 3 && name == "rotate_fewest");
         const bool is_dense = name == "blocks" || (name == "rotate_accurate" && order > 4);
         if (is_shifted || is_dense) continue;
         EXPECT_LE(worst, granted * (1 + kDifferences)) << name;
@@ -59,8 +59,8 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
 INSTANTIATE_TEST_SUITE_P(orders, GraphNoise, testing::Range(2, 9),
                          [](const auto& order) { return fmt::format("order_{}", order.param); });
 
-TEST(NoiseOfRotatePolynomial, of_order_4_costs_band_3_more_than_the_contract_grants) {
-    const auto kernel = contestant_named(4, "rotate_polynomial");
+TEST(NoiseOfRotateTensor, of_order_4_costs_band_3_more_than_the_contract_grants) {
+    const auto kernel = contestant_named(4, "rotate_tensor");
     std::mt19937_64 random(5);
     double worst = 0;
     for (int k = 0; k < 100; ++k)
@@ -95,8 +95,8 @@ accuracy::Contestant<double> contraction(std::function<double(const double* f)> 
     return {"contraction", turn};
 }
 
-TEST(NoiseOfRotate, of_order_3_costs_three_over_root_two) {
-    EXPECT_NEAR(worst_of_rotations(3, contestant_named(3, "rotate"), 200), 3 / std::sqrt(2.0), 0.02);
+TEST(NoiseOfRotateFewest, of_order_3_costs_three_over_root_two) {
+    EXPECT_NEAR(worst_of_rotations(3, contestant_named(3, "rotate_fewest"), 200), 3 / std::sqrt(2.0), 0.02);
 }
 
 TEST(NoiseOfContraction, band_2_from_five_entries_costs_more_than_the_contract_grants) {

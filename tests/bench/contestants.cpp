@@ -37,7 +37,7 @@ SingleCall<T> baseline(const char* name, int order) {
 
 // Kernels of an order that take part, for whatever ZONAL_BENCH_KERNEL is at the time.
 #define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
-#define ZONAL_BENCH_POLYNOMIAL(N) ZONAL_BENCH_KERNEL(N, rotate_polynomial)
+#define ZONAL_BENCH_TENSOR(N) ZONAL_BENCH_KERNEL(N, rotate_tensor)
 #define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
 
 #define ZONAL_BENCH_KERNEL(N, kernel)                        \
@@ -48,7 +48,7 @@ SingleCall<T> baseline(const char* name, int order) {
         }                                                    \
     };
 ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_EXACT)
-ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_BENCH_POLYNOMIAL)
+ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_BENCH_TENSOR)
 ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_BENCH_LOBES)
 #undef ZONAL_BENCH_KERNEL
 
@@ -60,10 +60,10 @@ std::vector<SingleCall<T>> single_calls(int order) {
 #define ZONAL_BENCH_KERNEL(N, kernel) \
     if (order == N) calls.push_back(single_call<kernel##_of_##N, N, T>(#kernel));
     ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_EXACT)
-    ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_BENCH_POLYNOMIAL)
+    ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_BENCH_TENSOR)
     ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_BENCH_LOBES)
 #undef ZONAL_BENCH_LOBES
-#undef ZONAL_BENCH_POLYNOMIAL
+#undef ZONAL_BENCH_TENSOR
 #undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
     calls.push_back(baseline<T, baselines::Zxzxz<T>>(kZxzxz, order));

@@ -22,7 +22,7 @@ constexpr int kRotations = 10000;
 constexpr const char* kBaseline = "memcpy";
 
 const std::vector<std::string> kKernels{"rotate", "rotate_accurate"};
-const std::vector<std::string> kPolynomialKernels{"rotate_polynomial"};
+const std::vector<std::string> kTensorKernels{"rotate_tensor"};
 const std::vector<std::string> kLobeKernels{"rotate_zhf", "factorize", "expand", "resample", "lobes"};
 
 /// The vectors one benchmark works on: a rotation of its own for each, plain arrays.
@@ -74,10 +74,9 @@ void register_benchmarks() {
 }
 
 template <int N, class T>
-void register_polynomial_benchmarks() {
-    register_benchmark<N, T>("rotate_polynomial", [](const T* R, const T* in, T* out, T*) {
-        PolynomialOrder<N>::rotate(R, in, out);
-    });
+void register_tensor_benchmarks() {
+    register_benchmark<N, T>("rotate_tensor",
+                             [](const T* R, const T* in, T* out, T*) { TensorOrder<N>::rotate(R, in, out); });
 }
 
 template <int N, class T>
@@ -115,11 +114,11 @@ Errors measure_errors() {
 }
 
 template <int N, class T>
-Errors measure_polynomial_errors() {
+Errors measure_tensor_errors() {
     Errors errors;
-    note_worst<T>(errors, N, {{"rotate_polynomial", [](const T* R, const T* f, T* out) {
-                                   PolynomialOrder<N>::rotate(R, f, out);
-                               }}});
+    note_worst<T>(
+        errors, N,
+        {{"rotate_tensor", [](const T* R, const T* f, T* out) { TensorOrder<N>::rotate(R, f, out); }}});
     return errors;
 }
 
@@ -244,10 +243,10 @@ void run(const std::string& stats, double seconds) {
     register_benchmarks<N, double>();
     ZONAL_FOR_EACH_ORDER(ZONAL_REGISTER)
 #undef ZONAL_REGISTER
-#define ZONAL_REGISTER(N)                       \
-    register_polynomial_benchmarks<N, float>(); \
-    register_polynomial_benchmarks<N, double>();
-    ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_REGISTER)
+#define ZONAL_REGISTER(N)                   \
+    register_tensor_benchmarks<N, float>(); \
+    register_tensor_benchmarks<N, double>();
+    ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_REGISTER)
 #undef ZONAL_REGISTER
 #define ZONAL_REGISTER(N)                 \
     register_lobe_benchmarks<N, float>(); \
@@ -284,10 +283,10 @@ void run(const std::string& stats, double seconds) {
     print_rows(N, times, {kBaseline}, {{kBaseline, 0}}, {{kBaseline, 0}});
     ZONAL_FOR_EACH_ORDER(ZONAL_PRINT)
 #undef ZONAL_PRINT
-#define ZONAL_PRINT(N)                                                              \
-    print_rows(N, times, kPolynomialKernels, measure_polynomial_errors<N, float>(), \
-               measure_polynomial_errors<N, double>());
-    ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_PRINT)
+#define ZONAL_PRINT(N)                                                      \
+    print_rows(N, times, kTensorKernels, measure_tensor_errors<N, float>(), \
+               measure_tensor_errors<N, double>());
+    ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_PRINT)
 #undef ZONAL_PRINT
 #define ZONAL_PRINT(N) \
     print_rows(N, times, kLobeKernels, measure_lobe_errors<N, float>(), measure_lobe_errors<N, double>());

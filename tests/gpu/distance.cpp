@@ -130,7 +130,9 @@ Judge judge_of_sums(const ReferenceKernel& kernel) {
 std::string bound_name(int order, const ReferenceKernel& kernel, int channels) {
     if (kernel.name == "prepare") return "apply";
     if (kernel.name == "stable_rotate_zhf") return "stable::rotate_zhf";
-    return kernel.name == "rotate" && channels == 3 && order > 3 ? "rotate_channels" : kernel.name;
+    // What `rotate` is in shaders: reference_order.cpp.
+    if (kernel.name != "rotate" && kernel.name != "rotate_fewest") return kernel.name;
+    return channels == 3 && order > 3 ? "rotate_channels" : "rotate_fewest";
 }
 
 std::string distance(int order, const ReferenceKernel& kernel, const Vectors& vectors,

@@ -55,17 +55,20 @@ ReferenceKernel named(const std::string& name, ReferenceKernel kernel) {
 
 std::vector<ReferenceKernel> kernels() {
     std::vector<ReferenceKernel> all{
-        named("rotate", ZONAL_TURN(order, rotate, 9)),
+        // What `rotate` is in shaders, by their banners.
+        named("rotate", ZONAL_TURN(order, rotate_fewest, 9)),
+        named("rotate_fewest", ZONAL_TURN(order, rotate_fewest, 9)),
         named("prepare", ZONAL_OF_ROTATION(order, prepare, order::kScalars)),
         named("apply", ZONAL_TURN(order, apply, order::kScalars)),
         named("rotate_accurate", ZONAL_TURN(order, rotate_accurate, 9)),
         named("blocks", ZONAL_OF_ROTATION(order, blocks, N * (4 * N * N - 1) / 3)),
     };
     all.front().run_channels = [](const float* R, const Channels* f, Channels* out) {
-        order::rotate(R, f, out);
+        order::rotate_fewest(R, f, out);
     };
-#if ZONAL_GPU_ORDER == 4
-    all.push_back(named("rotate_polynomial", ZONAL_TURN(order, rotate_polynomial, 9)));
+    all[1].run_channels = all.front().run_channels;
+#if ZONAL_GPU_ORDER <= 4
+    all.push_back(named("rotate_tensor", ZONAL_TURN(order, rotate_tensor, 9)));
 #endif
 #if ZONAL_GPU_ORDER > 2
     constexpr int kRing = 2 * N - 1;
@@ -83,7 +86,7 @@ std::vector<ReferenceKernel> kernels() {
     return all;
 }
 
-static_assert(order::kHasPolynomial == (N == 4));
+static_assert(order::kHasTensor == (N <= 4));
 static_assert(order::kHasLobes == (N > 2) && order::kHasPerBandLobes == (N > 2));
 
 [[maybe_unused]] const bool kIsAdded = add_reference_kernels(N, kernels());

@@ -18,7 +18,7 @@ TEST(CompiledOrders, are_those_that_are_built) {
 }
 
 TEST(CompiledOrders, have_every_kernel_that_they_are_to_have) {
-    EXPECT_NO_THROW(orders_with_polynomial());
+    EXPECT_NO_THROW(orders_with_tensor());
     EXPECT_NO_THROW(lobes_of_all_orders({Layout::shared, Layout::ring, Layout::per_band}));
 }
 

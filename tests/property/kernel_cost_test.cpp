@@ -35,6 +35,7 @@ struct Counts {
         std::vector<Counting> dense(compiled.blocks_size(), Counting(0)),
             scalars(compiled.scalars, Counting(0));
         expect_banner("rotate", [&] { kernels.rotate(r.data(), in.data(), out.data()); });
+        expect_banner("rotate_fewest", [&] { kernels.rotate_fewest(r.data(), in.data(), out.data()); });
         expect_banner("prepare", [&] { kernels.prepare(r.data(), scalars.data()); });
         expect_banner("apply", [&] { kernels.apply(scalars.data(), in.data(), out.data()); });
         expect_banner("rotate_accurate", [&] { kernels.rotate_accurate(r.data(), in.data(), out.data()); });
@@ -52,7 +53,7 @@ struct Counts {
 
     /// The numbers the project set itself: multiplications (mul + fma) and instructions of one vector,
     /// instructions of three channels that share a rotation.
-    void rotate_costs_no_more_than_its_goal() {
+    void the_fewest_instructions_are_no_more_than_their_goal() {
         struct Goal {
             int multiplications, instructions, rgb_instructions;
         };
@@ -62,7 +63,7 @@ struct Counts {
         if (!goals.contains(N)) return;
         const Goal goal = goals.at(N);
         Counting::tally = {};
-        kernels.rotate(r.data(), in.data(), out.data());
+        kernels.rotate_fewest(r.data(), in.data(), out.data());
         EXPECT_LE(Counting::tally.mul + Counting::tally.fma, goal.multiplications);
         if (goal.instructions == 0) return;
         EXPECT_LE(instructions(Counting::tally), goal.instructions);
@@ -75,11 +76,11 @@ struct Counts {
     static int instructions(const Tally& t) { return t.mul + t.add + t.fma + t.other; }
 };
 
-struct PolynomialCounts : Counts {
-    void run() { kernels.rotate_polynomial(r.data(), in.data(), out.data()); }
+struct TensorCounts : Counts {
+    void run() { kernels.rotate_tensor(r.data(), in.data(), out.data()); }
 
     void the_banner_tells_what_a_counting_type_sees() {
-        expect_banner("rotate_polynomial", [&] { run(); });
+        expect_banner("rotate_tensor", [&] { run(); });
     }
 
     void it_neither_divides_nor_takes_a_root() {
@@ -93,8 +94,8 @@ struct PolynomialCounts : Counts {
         std::vector<CountingSignal> f(N * N), result(N * N);
         const std::vector<double> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
         CountingSignal::tally = {};
-        compiled.rotate_polynomial_counting_signal(rotation.data(), f.data(), result.data());
-        EXPECT_EQ(text_of(CountingSignal::tally), banner::cost(N, "rotate_polynomial").further);
+        compiled.rotate_tensor_counting_signal(rotation.data(), f.data(), result.data());
+        EXPECT_EQ(text_of(CountingSignal::tally), banner::cost(N, "rotate_tensor").further);
     }
 };
 
@@ -143,12 +144,12 @@ struct LobeCounts {
             suite{compiled}.name();                                  \
         }                                                            \
     }
-#define ZONAL_POLYNOMIAL_TEST(suite, name)                               \
-    TEST(suite, name) {                                                  \
-        for (const CompiledOrder& compiled : orders_with_polynomial()) { \
-            SCOPED_TRACE("order " + std::to_string(compiled.order));     \
-            suite{{compiled}}.name();                                    \
-        }                                                                \
+#define ZONAL_TENSOR_TEST(suite, name)                               \
+    TEST(suite, name) {                                              \
+        for (const CompiledOrder& compiled : orders_with_tensor()) { \
+            SCOPED_TRACE("order " + std::to_string(compiled.order)); \
+            suite{{compiled}}.name();                                \
+        }                                                            \
     }
 #define ZONAL_LOBE_TEST(suite, name, ...)                                                  \
     TEST(suite, name) {                                                                    \
@@ -162,17 +163,17 @@ using Layout = LobeVariant::Layout;
 
 ZONAL_TEST(Counts, banners_tell_what_a_counting_type_sees)
 ZONAL_TEST(Counts, a_further_vector_costs_what_the_banner_says)
-ZONAL_TEST(Counts, rotate_costs_no_more_than_its_goal)
-ZONAL_POLYNOMIAL_TEST(PolynomialCounts, the_banner_tells_what_a_counting_type_sees)
-ZONAL_POLYNOMIAL_TEST(PolynomialCounts, it_neither_divides_nor_takes_a_root)
-ZONAL_POLYNOMIAL_TEST(PolynomialCounts, a_further_vector_costs_what_the_banner_says)
+ZONAL_TEST(Counts, the_fewest_instructions_are_no_more_than_their_goal)
+ZONAL_TENSOR_TEST(TensorCounts, the_banner_tells_what_a_counting_type_sees)
+ZONAL_TENSOR_TEST(TensorCounts, it_neither_divides_nor_takes_a_root)
+ZONAL_TENSOR_TEST(TensorCounts, a_further_vector_costs_what_the_banner_says)
 ZONAL_LOBE_TEST(LobeCounts, banners_tell_what_a_counting_type_sees_in_products, Layout::shared, Layout::ring)
 ZONAL_LOBE_TEST(PerBandLobeCounts, banners_tell_what_a_counting_type_sees_in_products, Layout::per_band)
 ZONAL_LOBE_TEST(LobeCounts, banners_tell_what_a_counting_type_sees_in_rotate_zhf, Layout::shared,
                 Layout::ring)
 ZONAL_LOBE_TEST(LobeCounts, rotate_zhf_multiplies_less_than_the_paper, Layout::shared)
 #undef ZONAL_TEST
-#undef ZONAL_POLYNOMIAL_TEST
+#undef ZONAL_TENSOR_TEST
 #undef ZONAL_LOBE_TEST
 
 }  // namespace

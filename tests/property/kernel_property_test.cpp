@@ -236,9 +236,9 @@ struct Properties {
     void the_accurate_kernel_takes_mirrors() { expect_mirrors_taken(kernels.rotate_accurate); }
 };
 
-/// What `rotate_polynomial` must do.
-struct PolynomialProperties : Properties {
-    const RotateKernel<double> kernel = compiled.in_double.rotate_polynomial;
+/// What `rotate_tensor` must do.
+struct TensorProperties : Properties {
+    const RotateKernel<double> kernel = compiled.in_double.rotate_tensor;
 
     void it_turns_as_rotate_does() {
         EXPECT_LE(distance(rotated(kernel, rotation, f), rotate(rotation, f)), tolerance(N) * norm(f));
@@ -265,12 +265,12 @@ struct PolynomialProperties : Properties {
     TEST(suite, name##_in_float){ZONAL_CHECK(suite<float>, name)} TEST(suite, name##_in_double) { \
         ZONAL_CHECK(suite<double>, name)                                                          \
     }
-#define ZONAL_POLYNOMIAL_TEST(suite, name)                               \
-    TEST(suite, name) {                                                  \
-        for (const CompiledOrder& compiled : orders_with_polynomial()) { \
-            SCOPED_TRACE("order " + std::to_string(compiled.order));     \
-            suite{{compiled}}.name();                                    \
-        }                                                                \
+#define ZONAL_TENSOR_TEST(suite, name)                               \
+    TEST(suite, name) {                                              \
+        for (const CompiledOrder& compiled : orders_with_tensor()) { \
+            SCOPED_TRACE("order " + std::to_string(compiled.order)); \
+            suite{{compiled}}.name();                                \
+        }                                                            \
     }
 ZONAL_TYPED_TEST(TypedProperties, identity_returns_the_input)
 ZONAL_TYPED_TEST(TypedProperties, identity_is_right_when_denormals_are_flushed)
@@ -286,14 +286,14 @@ ZONAL_TEST(Properties, energy_of_every_band_survives_a_chain_of_small_rotations)
 ZONAL_TEST(Properties, an_rgb_signal_is_three_scalar_ones)
 ZONAL_TEST(Properties, dense_blocks_and_prepared_scalars_turn_as_rotate_does)
 ZONAL_TEST(Properties, the_accurate_kernel_takes_mirrors)
-ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_turns_as_rotate_does)
-ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_may_overwrite_its_input)
-ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_keeps_a_value_that_is_not_finite_in_its_band)
-ZONAL_POLYNOMIAL_TEST(PolynomialProperties, it_takes_mirrors)
+ZONAL_TENSOR_TEST(TensorProperties, it_turns_as_rotate_does)
+ZONAL_TENSOR_TEST(TensorProperties, it_may_overwrite_its_input)
+ZONAL_TENSOR_TEST(TensorProperties, it_keeps_a_value_that_is_not_finite_in_its_band)
+ZONAL_TENSOR_TEST(TensorProperties, it_takes_mirrors)
 #undef ZONAL_CHECK
 #undef ZONAL_TEST
 #undef ZONAL_TYPED_TEST
-#undef ZONAL_POLYNOMIAL_TEST
+#undef ZONAL_TENSOR_TEST
 
 }  // namespace
 }  // namespace zonal

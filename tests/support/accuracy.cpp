@@ -158,9 +158,9 @@ double contract(const std::string& kernel, int order, bool is_float) {
                                         {6, 3e-6, 6e-14}, {8, 5e-6, 1e-13}, {10, 8e-6, 1e-13},
                                         {20, 3e-5, 1e-12}};
     static const std::map<std::string, const std::vector<Point>*> all{
-        {"rotate", &rotate},  {"rotate_channels", &rotate},   {"rotate_polynomial", &rotate},
-        {"apply", &rotate},   {"rotate_accurate", &accurate}, {"blocks", &blocks},
-        {"rotate_zhf", &zhf}, {"stable::rotate_zhf", &zhf}};
+        {"rotate", &rotate},        {"rotate_channels", &rotate}, {"rotate_tensor", &rotate},
+        {"rotate_fewest", &rotate}, {"apply", &rotate},           {"rotate_accurate", &accurate},
+        {"blocks", &blocks},        {"rotate_zhf", &zhf},         {"stable::rotate_zhf", &zhf}};
     const std::vector<Point>& points = *all.at(kernel);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const Point &a = points[k], &b = points[k + 1];

@@ -56,7 +56,7 @@ std::vector<Worst> worst_errors(const oracle::Rotation& exact, const std::vector
 
 /// The largest error b_N that a kernel may have by the project's own contract, for N = 2 … 20 (linear
 /// interpolation between the orders that the contract names). `kernel`: rotate, rotate_channels,
-/// rotate_polynomial, apply, rotate_accurate, blocks or rotate_zhf.
+/// rotate_tensor, apply, rotate_accurate, blocks or rotate_zhf.
 double contract(const std::string& kernel, int order, bool is_float);
 
 }  // namespace zonal::accuracy

@@ -22,12 +22,12 @@ const CompiledOrder& compiled_order(int order) {
     throw std::out_of_range("order " + std::to_string(order) + " is not compiled");
 }
 
-std::vector<CompiledOrder> orders_with_polynomial() {
+std::vector<CompiledOrder> orders_with_tensor() {
     std::vector<CompiledOrder> found;
     for (const CompiledOrder& compiled : all_orders()) {
-        if (compiled.has_polynomial() != is_to_have_polynomial(compiled.order))
-            throw std::logic_error("rotate_polynomial of order " + std::to_string(compiled.order));
-        if (compiled.has_polynomial()) found.push_back(compiled);
+        if (compiled.has_tensor() != is_to_have_tensor(compiled.order))
+            throw std::logic_error("rotate_tensor of order " + std::to_string(compiled.order));
+        if (compiled.has_tensor()) found.push_back(compiled);
     }
     return found;
 }

@@ -22,7 +22,8 @@ using OneInputKernel = void (*)(const T* in, T* out);
 
 template <class T, class V = T>
 struct RotateKernels {
-    RotateKernel<T, V> rotate = nullptr, rotate_accurate = nullptr, rotate_polynomial = nullptr;
+    RotateKernel<T, V> rotate = nullptr, rotate_accurate = nullptr, rotate_fewest = nullptr,
+                       rotate_tensor = nullptr;
     OneInputKernel<T> prepare = nullptr, blocks = nullptr;
     RotateKernel<T, V> apply = nullptr;  ///< of what `prepare` made
 };
@@ -72,12 +73,12 @@ struct CompiledOrder {
     RotateKernel<double, Rgb<double>> rotate_rgb = nullptr;
     RotateKernel<Counting, CountingRgb> rotate_counting_rgb = nullptr;
     RotateKernel<double, CountingSignal> rotate_counting_signal = nullptr,
-                                         rotate_polynomial_counting_signal = nullptr;
+                                         rotate_tensor_counting_signal = nullptr;
     std::vector<LobeVariant> lobes;
 
     int size() const { return order * order; }
     int blocks_size() const { return order * (4 * order * order - 1) / 3; }
-    bool has_polynomial() const { return in_double.rotate_polynomial != nullptr; }
+    bool has_tensor() const { return in_double.rotate_tensor != nullptr; }
     template <class T>
     const RotateKernels<T>& in() const {
         if constexpr (std::is_same_v<T, float>) return in_float;
@@ -89,12 +90,12 @@ struct CompiledOrder {
 const std::vector<CompiledOrder>& compiled_orders();
 /// Throws std::out_of_range for an order that is not compiled.
 const CompiledOrder& compiled_order(int order);
-/// Whether an order is to have lobes, or `rotate_polynomial`, whatever its header says.
+/// Whether an order is to have lobes, or `rotate_tensor`, whatever its header says.
 constexpr bool is_to_have_lobes(int order) { return order >= 3; }
-constexpr bool is_to_have_polynomial(int order) { return order == 4; }
+constexpr bool is_to_have_tensor(int order) { return order <= 4; }
 /// The orders, and the sets of lobes of these layouts, that are compiled and to have such kernels. Throw
 /// std::logic_error where one is gone: a test that runs over them fails then.
-std::vector<CompiledOrder> orders_with_polynomial();
+std::vector<CompiledOrder> orders_with_tensor();
 std::vector<LobeVariant> lobes_of_all_orders(const std::vector<LobeVariant::Layout>& layouts);
 /// For the files that hold one order each.
 bool add_compiled_order(CompiledOrder order);

@@ -1,5 +1,5 @@
 // The generated kernels of one order, ZONAL_TEST_ORDER in ZONAL_TEST_HEADER, in every type that a test runs
-// them in. ZONAL_TEST_HAS_LOBES, …_PER_BAND, …_POLYNOMIAL: which kernels the header has beside the others.
+// them in. ZONAL_TEST_HAS_LOBES, …_PER_BAND, …_TENSOR: which kernels the header has beside the others.
 #include ZONAL_TEST_HEADER
 
 #include "support/compiled_kernels.hpp"
@@ -13,14 +13,15 @@ namespace order = ZONAL_JOIN(order, ZONAL_TEST_ORDER);
 
 static_assert(order::kHasLobes == ZONAL_TEST_HAS_LOBES &&
               order::kHasPerBandLobes == ZONAL_TEST_HAS_PER_BAND &&
-              order::kHasPolynomial == ZONAL_TEST_HAS_POLYNOMIAL);
+              order::kHasTensor == ZONAL_TEST_HAS_TENSOR);
 
 template <class T, class V = T>
 RotateKernels<T, V> rotate_kernels() {
     return {
         .rotate = order::rotate<T, V>, .rotate_accurate = order::rotate_accurate<T, V>,
-#if ZONAL_TEST_HAS_POLYNOMIAL
-        .rotate_polynomial = order::rotate_polynomial<T, V>,
+        .rotate_fewest = order::rotate_fewest<T, V>,
+#if ZONAL_TEST_HAS_TENSOR
+        .rotate_tensor = order::rotate_tensor<T, V>,
 #endif
         .prepare = order::prepare<T>, .blocks = order::blocks<T>, .apply = order::apply<T, V>
     };
@@ -70,8 +71,8 @@ std::vector<LobeVariant> lobe_variants() {
     .rotate_rgb = order::rotate<double, Rgb<double>>,
     .rotate_counting_rgb = order::rotate<Counting, CountingRgb>,
     .rotate_counting_signal = order::rotate<double, CountingSignal>,
-#if ZONAL_TEST_HAS_POLYNOMIAL
-    .rotate_polynomial_counting_signal = order::rotate_polynomial<double, CountingSignal>,
+#if ZONAL_TEST_HAS_TENSOR
+    .rotate_tensor_counting_signal = order::rotate_tensor<double, CountingSignal>,
 #endif
     .lobes = lobe_variants(),
 });

@@ -39,18 +39,18 @@ ZONAL_FOR_EACH_ORDER(ZONAL_TEST_ORDER)
 
 /// The kernel of products and sums alone, for the orders that have it.
 template <int N>
-struct PolynomialOrder;
+struct TensorOrder;
 
-#define ZONAL_TEST_POLYNOMIAL_ORDER(N)                       \
+#define ZONAL_TEST_TENSOR_ORDER(N)                           \
     template <>                                              \
-    struct PolynomialOrder<N> {                              \
+    struct TensorOrder<N> {                                  \
         template <class T, class V>                          \
         static void rotate(const T* R, const V* f, V* out) { \
-            order##N::rotate_polynomial(R, f, out);          \
+            order##N::rotate_tensor(R, f, out);              \
         }                                                    \
     };
-ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_TEST_POLYNOMIAL_ORDER)
-#undef ZONAL_TEST_POLYNOMIAL_ORDER
+ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_TEST_TENSOR_ORDER)
+#undef ZONAL_TEST_TENSOR_ORDER
 
 /// Where the lobes of a variant and their weights stand: band l has `count(l)` lobes, the d-th of them with
 /// weight `weight(l, d)` and direction `direction(l, d)`.

@@ -52,7 +52,7 @@ bool reads_what_it_stored(const Kernel& kernel, const std::vector<Statement>& st
 }
 
 TEST(RegisterSchedule, everything_is_made_once_before_it_is_used) {
-    for (const char* name : {"rotate", "rotate_accurate", "prepare", "apply", "blocks"}) {
+    for (const char* name : {"rotate_fewest", "rotate_accurate", "prepare", "apply", "blocks"}) {
         const Kernel& kernel = order_5(name);
         for (const int channels : {1, 3})
             EXPECT_EQ(fault_of(kernel, schedule_for_registers(kernel, channels)), "") << name;
@@ -60,7 +60,7 @@ TEST(RegisterSchedule, everything_is_made_once_before_it_is_used) {
 }
 
 TEST(RegisterSchedule, what_is_safe_in_place_stays_so) {
-    for (const char* name : {"rotate", "rotate_accurate", "apply"}) {
+    for (const char* name : {"rotate_fewest", "rotate_accurate", "apply"}) {
         const Kernel& kernel = order_5(name);
         EXPECT_FALSE(reads_what_it_stored(kernel, schedule_for_registers(kernel))) << name;
     }

@@ -36,23 +36,23 @@ TEST(Planner, every_way_to_turn_a_band_turns_it) {
     for (int l = 1; l < kOrder; ++l) {
         for (const Alternative& way : alternatives(kOrder, l)) {
             Plan plan = cheapest;
-            plan[l - 1] = way.plan;
+            plan[l - 1] = way.method;
             EXPECT_LT(error_of(kOrder, build_plan(kOrder, plan)), 1e-13)
-                << "band " << l << ", " << name_of(way.plan);
+                << "band " << l << ", " << way.method->name;
         }
     }
 }
 
 TEST(Planner, one_vector_of_order_3_is_contracted_and_takes_mirrors) {
     const Plan plan = cheapest_plan(3, {1, true});
-    EXPECT_EQ(plan[1].method, BandMethod::contraction);
+    EXPECT_EQ(plan[1]->name, "contraction");
     EXPECT_FALSE(build_plan(3, plan).needs_proper_rotation);
 }
 
 TEST(Planner, one_vector_of_order_4_shares_the_angles_among_its_bands) {
     const Plan plan = cheapest_plan(4, {1, false});
-    EXPECT_EQ(plan[1].method, BandMethod::zxzxz);
-    EXPECT_EQ(plan[2].method, BandMethod::zxzxz);
+    EXPECT_EQ(plan[1]->family, "zxzxz");
+    EXPECT_EQ(plan[2]->family, "zxzxz");
     EXPECT_TRUE(build_plan(4, plan).needs_proper_rotation);
 }
 
@@ -64,10 +64,10 @@ TEST(Planner, nothing_weighs_less_than_the_plan_but_for_one_band_changed) {
         int judged = 0;
         for (int l = 1; l < 6; ++l) {
             for (const Alternative& way : alternatives(6, l)) {
-                if (!is_fit_for(way.plan, 6, workload)) continue;
+                if (!is_fit_for(*way.method, 6, workload)) continue;
                 Plan changed = plan;
-                changed[l - 1] = way.plan;
-                EXPECT_GE(weight(build_plan(6, changed), workload), least) << name_of(way.plan);
+                changed[l - 1] = way.method;
+                EXPECT_GE(weight(build_plan(6, changed), workload), least) << way.method->name;
                 ++judged;
             }
         }
@@ -88,15 +88,17 @@ TEST(Planner, orders_11_to_14_multiply_no_more_than_their_goals) {
     }
 }
 
-TEST(Rotations, contractions_alone_are_a_kernel_where_rotate_divides_and_every_band_has_one) {
+TEST(Rotations, tensors_alone_are_a_kernel_where_every_band_has_one) {
     for (const int order : {2, 3, 4, 5, 6}) {
         const std::vector<graph::Kernel> kernels = build_rotations(order);
-        const auto polynomial = std::ranges::find(kernels, "rotate_polynomial", &graph::Kernel::name);
-        ASSERT_EQ(polynomial != kernels.end(), order == 4) << order;
-        if (polynomial == kernels.end()) continue;
-        EXPECT_FALSE(polynomial->needs_proper_rotation);
-        EXPECT_EQ(graph::count_operations(*polynomial).total().other, 0);
-        EXPECT_GT(graph::count_operations(graph::kernel_named(kernels, "rotate")).total().other, 0);
+        const auto tensor = std::ranges::find(kernels, "rotate_tensor", &graph::Kernel::name);
+        ASSERT_EQ(tensor != kernels.end(), order <= 4) << order;
+        if (tensor == kernels.end()) continue;
+        EXPECT_FALSE(tensor->needs_proper_rotation);
+        EXPECT_EQ(graph::count_operations(*tensor).total().other, 0);
+        const graph::Kernel& fewest = graph::kernel_named(kernels, "rotate_fewest");
+        EXPECT_EQ(fewest.forwards_to, order <= 3 ? "rotate_tensor" : "") << order;
+        EXPECT_EQ(graph::count_operations(fewest).total().other > 0, order > 3) << order;
     }
 }
 

@@ -104,7 +104,7 @@ TEST_F(OwnTables, bounds_that_are_missing_or_of_something_else_are_an_error) {
     EXPECT_THAT(complaint_with(""), HasSubstr("bounds.json: JSON text: found a break"));
     EXPECT_THAT(complaint_with("[]"), HasSubstr("bounds: found nothing, wanted a list"));
     EXPECT_THAT(complaint_with("{\"bounds\": []}"),
-                AllOf(HasSubstr("bounds: found none of rotate of order 3"), HasSubstr("--orders 3")));
+                AllOf(HasSubstr("bounds: found none of rotate_tensor of order 3"), HasSubstr("--orders 3")));
     EXPECT_THAT(complaint_with(edited("\"order\": 2,", "\"order\": 2.5,")),
                 HasSubstr("bounds[0].order: found 2.5, wanted a whole number"));
     EXPECT_THAT(complaint_with(edited("\"float\": \"2.2e-07\"", "\"float\": \"1\\nint x;\"")),

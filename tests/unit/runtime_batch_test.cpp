@@ -217,7 +217,7 @@ std::string kernel_that_runs(std::string_view target, int order, Form form, int 
     if (form == Form::one_for_all && channels == 3 && has_blocks && 3 <= order && order <= 6) return "blocks";
     const bool is_at_once = form != Form::one_for_all && channels == 1 && (order <= 4 || order > 6);
     if (!is_at_once) return "apply";
-    return order == 4 ? "rotate_polynomial" : "rotate";
+    return order == 4 ? "rotate_tensor" : "rotate";
 }
 
 /// On every instruction set: banners promise it for fused instructions, zonal/batch.hpp for all.

@@ -49,12 +49,13 @@ struct Wgsl {
         const std::string prefix = fmt::format("zonal_order{}_", order);
         std::vector<Call> all;
         const auto add = [&](const std::string& kernel, const std::string& on_three) {
-            all.push_back({prefix + kernel + "(R, f)", {kernel}, kernel, 1});
+            const std::string on_one = kernel == "rotate" ? "rotate_fewest" : kernel;  // what shaders choose
+            all.push_back({prefix + kernel + "(R, f)", {kernel}, on_one, 1});
             all.push_back({prefix + kernel + "_rgb(R, f)", {kernel}, on_three, 3});
         };
         add("rotate", order > 3 ? "rotate_channels" : "rotate");
         add("rotate_accurate", "rotate_accurate");
-        if (order == 4) add("rotate_polynomial", "rotate_polynomial");
+        if (order == 4) add("rotate_tensor", "rotate_tensor");
         if (order < 6) add("rotate_zhf", "rotate_zhf");  // browsers take seconds to compile it
         for (const int channels : {1, 3})
             all.push_back({fmt::format("{0}apply{1}({0}prepare(R), f)", prefix, channels == 3 ? "_rgb" : ""),

@@ -4,6 +4,8 @@
 #pragma once
 
 #include "order03/rotate.hpp"
+#include "order03/rotate_tensor.hpp"
+#include "order03/rotate_fewest.hpp"
 #include "order03/prepare.hpp"
 #include "order03/apply.hpp"
 #include "order03/rotate_accurate.hpp"
@@ -31,13 +33,13 @@ inline constexpr int kHasLobes = 1;
 /// 1 where lobes of each band's own are here, else 0.
 inline constexpr int kHasPerBandLobes = 1;
 
-/// 1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0.
-inline constexpr int kHasPolynomial = 0;
+/// 1 where `rotate_tensor` is here: every band can be contracted; else 0.
+inline constexpr int kHasTensor = 1;
 
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 34;
 
-/// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
+/// 1 where `rotate` and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 1;
 
 }  // namespace zonal::order3

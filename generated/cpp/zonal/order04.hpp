@@ -3,9 +3,10 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 #pragma once
 
-#include "order04/rotate_channels.hpp"
 #include "order04/rotate.hpp"
-#include "order04/rotate_polynomial.hpp"
+#include "order04/rotate_channels.hpp"
+#include "order04/rotate_tensor.hpp"
+#include "order04/rotate_fewest.hpp"
 #include "order04/prepare.hpp"
 #include "order04/apply.hpp"
 #include "order04/rotate_accurate.hpp"
@@ -33,13 +34,13 @@ inline constexpr int kHasLobes = 1;
 /// 1 where lobes of each band's own are here, else 0.
 inline constexpr int kHasPerBandLobes = 1;
 
-/// 1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0.
-inline constexpr int kHasPolynomial = 1;
+/// 1 where `rotate_tensor` is here: every band can be contracted; else 0.
+inline constexpr int kHasTensor = 1;
 
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 34;
 
-/// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
+/// 1 where `rotate` and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 0;
 
 }  // namespace zonal::order4

@@ -3,8 +3,9 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 #pragma once
 
-#include "order08/rotate_channels.hpp"
 #include "order08/rotate.hpp"
+#include "order08/rotate_channels.hpp"
+#include "order08/rotate_fewest.hpp"
 #include "order08/prepare.hpp"
 #include "order08/apply.hpp"
 #include "order08/rotate_accurate.hpp"
@@ -32,13 +33,13 @@ inline constexpr int kHasLobes = 1;
 /// 1 where lobes of each band's own are here, else 0.
 inline constexpr int kHasPerBandLobes = 1;
 
-/// 1 where `rotate_polynomial` is here: `rotate` divides and every band can do without; else 0.
-inline constexpr int kHasPolynomial = 0;
+/// 1 where `rotate_tensor` is here: every band can be contracted; else 0.
+inline constexpr int kHasTensor = 0;
 
 /// Values that `prepare` makes.
 inline constexpr int kScalars = 137;
 
-/// 1 where `rotate` of one channel and `prepare` take det R = -1, else 0.
+/// 1 where `rotate` and `prepare` take det R = -1, else 0.
 inline constexpr int kTakesMirrors = 0;
 
 }  // namespace zonal::order8

@@ -10,7 +10,8 @@
 
 #ifndef ZONAL_ORDER4_ROTATE
 #define ZONAL_ORDER4_ROTATE
-// The cheapest exact rotation of one vector.
+// What to call: the fastest exact rotation with at most five times the least error,
+// rotate_fewest.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.

@@ -8,7 +8,8 @@
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
-// The cheapest exact rotation of one vector.
+// What to call: the fastest exact rotation with at most five times the least error,
+// rotate_fewest.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.

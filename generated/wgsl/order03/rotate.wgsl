@@ -7,7 +7,8 @@
 //           relative to |f|; 2.23 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 
-// The cheapest exact rotation of one vector.
+// What to call: the fastest exact rotation with at most five times the least error,
+// rotate_tensor.
 // Turns the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.

@@ -34,7 +34,7 @@ struct PackKernels;
 ZONAL_FOR_EACH_ORDER(ZONAL_PACK_KERNELS)
 #undef ZONAL_PACK_KERNELS
 
-/// The kernel for one vector a lane: `rotate_polynomial` where there is one. On packs its further products
+/// The kernel for one vector a lane: `rotate_tensor` where there is one. On packs its further products
 /// cost less than waiting for the divisions and roots of `rotate`.
 template <int N>
 struct AtOnce {
@@ -45,17 +45,17 @@ struct AtOnce {
     }
 };
 
-#define ZONAL_POLYNOMIAL_KERNEL(N)                             \
-    template <>                                                \
-    struct AtOnce<N> {                                         \
-        static constexpr bool kTakesMirrors = true;            \
-        template <class P>                                     \
-        static void rotate(const P* rotation, P* f) {          \
-            order##N::rotate_polynomial<P, P>(rotation, f, f); \
-        }                                                      \
+#define ZONAL_TENSOR_KERNEL(N)                             \
+    template <>                                            \
+    struct AtOnce<N> {                                     \
+        static constexpr bool kTakesMirrors = true;        \
+        template <class P>                                 \
+        static void rotate(const P* rotation, P* f) {      \
+            order##N::rotate_tensor<P, P>(rotation, f, f); \
+        }                                                  \
     };
-ZONAL_FOR_EACH_POLYNOMIAL_ORDER(ZONAL_POLYNOMIAL_KERNEL)
-#undef ZONAL_POLYNOMIAL_KERNEL
+ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_TENSOR_KERNEL)
+#undef ZONAL_TENSOR_KERNEL
 
 /// Three interleaved channels of float, all vectors by one rotation: products with dense blocks, which need
 /// no transposition, are faster than `prepare` and `apply` in these orders.

@@ -39,7 +39,7 @@ struct Shader {
 std::vector<std::string> usual_kernels() {
     std::vector<std::string> kernels;
     for (const char* kernel :
-         {"rotate", "rotate_polynomial", "rotate_accurate", "rotate_zhf", "apply", "resample"})
+         {"rotate", "rotate_tensor", "rotate_accurate", "rotate_zhf", "apply", "resample"})
         for (const char* suffix : {"", "_rgb"}) kernels.push_back(std::string(kernel) + suffix);
     kernels.emplace_back("prepare");
     kernels.emplace_back(kTailored);

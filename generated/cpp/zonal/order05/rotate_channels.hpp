@@ -19,7 +19,7 @@ inline constexpr double kRotateChannelsBoundFloat = 1.1e-06;
 inline constexpr double kRotateChannelsBoundDouble = 2.3e-15;
 inline constexpr double kRotateChannelsExcess = 2.00;
 
-/// The cheapest exact rotation of three vectors at once.
+/// The exact rotation of three vectors at once by the fewest instructions.
 /// Turns the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.

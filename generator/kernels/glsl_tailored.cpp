@@ -5,7 +5,7 @@
 // All bands are looked up in the same scaled direction, so that a compiler finds face and coordinates of a
 // lobe once for all bands: of order 6 in a quarter fewer instructions (RADV, navi21) than with a scale for
 // each band's resolution. The scale keeps bilinear filters within a face: see zonal/signal_tables.hpp.
-#include "emit/glsl_tailored.hpp"
+#include "kernels/glsl_tailored.hpp"
 
 #include <fmt/format.h>
 
@@ -15,10 +15,41 @@
 #include "emit/text.hpp"
 #include "graph/counts.hpp"
 #include "graph/passes.hpp"
+#include "kernels/rotations.hpp"
 
-namespace zonal::emit {
+namespace zonal::kernels {
 
 namespace {
+
+using emit::Unit;
+
+/// How a signal that is tabulated in cube maps is sampled: what signal-tailored rotation adds to the kernels
+/// `lobes` and `resample` of a unit.
+struct TailoredRotation {
+    /// A band that is looked up: its expansion is a layer of the cube-map array, in the order of this list.
+    struct SampledBand {
+        int band = 0;
+        int first_sample = 0;  ///< of the band, in the input of `resample`
+        int first_output = 0;  ///< of the band, in its output
+        int output_count = 0;
+        std::vector<int> lobes;  ///< looked up, one a sample, by number in the output of `lobes`
+    };
+    std::vector<SampledBand> bands;
+    /// Rotates the bands that are not looked up: (R, their coefficients) -> the first elements of the output.
+    graph::Kernel rotate_low;
+};
+
+/// Bands 0 and 1 are those of an order-2 signal: they rotate by its kernel, exactly, and need no table.
+TailoredRotation tailored_rotation(const LobeSet& lobes) {
+    constexpr int kLowBands = 2;
+    TailoredRotation rotation;
+    rotation.rotate_low = graph::kernel_named(build_rotations(kLowBands), "rotate_tensor");
+    rotation.rotate_low.name = "rotate_low";
+    rotation.rotate_low.summary = "Rotates bands 0 and 1: f'(w) = f(R^T w).";
+    for (int l = kLowBands; l < lobes.order; ++l)
+        rotation.bands.push_back({l, lobes.weight_start(l), l * l, 2 * l + 1, lobes.lobes_of[l]});
+    return rotation;
+}
 
 /// zonal::kFaceScale of the runtime, 31/32: exact in float.
 const char* const kFaceScale = "0.96875";
@@ -31,7 +62,7 @@ int fetches(const TailoredRotation& rotation) {
 
 std::vector<std::string> cost_texts(const Unit& unit, const TailoredRotation& rotation) {
     const auto counts = [](const graph::Kernel& kernel) {
-        return counts_text(graph::count_operations(kernel).total());
+        return emit::counts_text(graph::count_operations(kernel).total());
     };
     return {fmt::format("rotate_tailored {} texture fetches and the scaling of {} directions;",
                         fetches(rotation), graph::kernel_named(unit.kernels, "lobes").output.size / 3),
@@ -44,11 +75,12 @@ std::vector<std::string> cost_texts(const Unit& unit, const TailoredRotation& ro
 
 std::string banner(const Unit& unit, const TailoredRotation& rotation) {
     std::vector<std::string> lines =
-        opening_lines(unit, unit.command(kTailoredName), unit.tables.at("resample"));
-    append_key(lines, "cost", cost_texts(unit, rotation));
-    append_key(lines, "bound", {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
-    append_key(lines, "source", graph::kernel_named(unit.kernels, "resample").sources);
-    return comment("//", lines);
+        emit::opening_lines(unit, unit.command(kTailoredName), unit.tables.at("resample"));
+    emit::append_key(lines, "cost", cost_texts(unit, rotation));
+    emit::append_key(lines, "bound",
+                     {"that of the tables: zonal::plan_signal_tables of the runtime states it"});
+    emit::append_key(lines, "source", graph::kernel_named(unit.kernels, "resample").sources);
+    return emit::comment("//", lines);
 }
 
 /// A direction whose bilinear filter stays within a face, whatever level is looked up.
@@ -86,7 +118,7 @@ std::string print_bands(const Unit& unit, const TailoredRotation& rotation) {
         for (std::size_t d = 0; d < band.lobes.size(); ++d)
             text += fmt::format("    samples[{}] = textureLod(bands, vec4(w{}, {}.0), levels[{}]).rgb;\n",
                                 band.first_sample + static_cast<int>(d), band.lobes[d], layer, layer);
-        text += print_shader_statements(resampled_band(unit, band), kGlsl, true, 4);
+        text += emit::print_shader_statements(resampled_band(unit, band), emit::kGlsl, true, 4);
         ++layer;
     }
     return text;
@@ -125,16 +157,17 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
 
 }  // namespace
 
-File print_glsl_tailored(const Unit& unit, const TailoredRotation& rotation) {
+emit::File print_glsl_tailored(const Unit& unit, const LobeSet& lobes) {
+    const TailoredRotation rotation = tailored_rotation(lobes);
     const auto once = [&](const char* name, const std::string& text) {
-        return shader_once(fmt::format("{}_{}", unit.name, name), text);
+        return emit::shader_once(fmt::format("{}_{}", unit.name, name), text);
     };
     return {fmt::format("{}/{}.glsl", unit.folder, kTailoredName),
             banner(unit, rotation) + "//\n// For GLSL 4.50 and ES 3.20.\n" +
-                print_shader_kernel(unit, graph::kernel_named(unit.kernels, "lobes"), kGlsl) +
-                print_shader_kernel(unit, rotation.rotate_low, kGlsl) +
+                emit::print_shader_kernel(unit, graph::kernel_named(unit.kernels, "lobes"), emit::kGlsl) +
+                emit::print_shader_kernel(unit, rotation.rotate_low, emit::kGlsl) +
                 once("face_direction", print_face_direction(unit)) +
                 once(kTailoredName, print_rotation(unit, rotation))};
 }
 
-}  // namespace zonal::emit
+}  // namespace zonal::kernels
