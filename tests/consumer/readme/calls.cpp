@@ -9,7 +9,7 @@
 #include "splats.hpp"
 #include "zonal/closed_forms.hpp"
 #include "zonal/order03/rotate.hpp"
-#include "zonal/order04/rotate_tensor.hpp"
+#include "zonal/order04/rotate.hpp"
 #include "zonal/projection.hpp"
 #include "zonal/rotate.hpp"
 
@@ -81,9 +81,9 @@ void rotate_by_kernels_alone() {
     f[kX] = 1;
     zonal::order3::rotate(R, f, out);
     expect("order 3", out[kY], 1);
-    zonal::order4::rotate_tensor(R, f, out);
+    zonal::order4::rotate(R, f, out);
     expect("order 4", out[kY], 1);
-    if (zonal::order4::kRotateTensorBoundFloat > 1e-6) wrong = 1;
+    if (zonal::order4::kRotateBoundFloat > 1e-6) wrong = 1;
 }
 
 void rotate_by_a_quaternion() {
