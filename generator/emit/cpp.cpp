@@ -184,7 +184,7 @@ std::string kernel_comment(const Unit& unit, const Kernel& kernel) {
     if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
         lines.push_back(
             has_pole(unit, kernel)
-                ? "Not for derivatives by R: where R turns z onto itself or -z they come out wrong."
+                ? "Not for derivatives by R: where R takes z to itself or to -z they come out wrong."
                 : "May be differentiated: T and V may be numbers that carry derivatives.");
     append(lines, closing_lines(unit, kernel));
     std::string text;

@@ -131,7 +131,7 @@ std::string print_rotation(const Unit& unit, const TailoredRotation& rotation) {
     std::string text = fmt::format(
         "// Rotates a static signal of three channels that is tabulated: f'(w) = f(R^T w), signal-tailored.\n"
         "// R : 9 values, row-major, of a rotation or a mirror.\n"
-        "// low : {low} values, the coefficients of bands 0 and 1, which turn without a table.\n"
+        "// low : {low} values, the coefficients of bands 0 and 1, which rotate without a table.\n"
         "// bands : layer k holds band k + 2 on stretched faces (zonal/signal_tables.hpp);\n"
         "//   filters linear within a level, nearest or linear between levels.\n"
         "// levels : the mip level of each layer, whole numbers.\n"

@@ -378,7 +378,7 @@ Kernel build_resample(const LobeSet& lobes) {
 Kernel build_lobes(const LobeSet& lobes) {
     Kernel kernel;
     kernel.name = "lobes";
-    kernel.summary = "Turns the lobe directions of the table: R times each.";
+    kernel.summary = "Rotates the lobe directions of the table: R times each.";
     kernel.sources = {std::string(kPaper) + "eq. 9"};
     kernel.inputs = {rotation_array()};
     const int count = static_cast<int>(lobes.directions.size());
@@ -396,7 +396,7 @@ Kernel build_rotate_zhf(const LobeSet& lobes) {
     Kernel kernel;
     kernel.name = "rotate_zhf";
     kernel.summary =
-        "Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.\n"
+        "Rotates a signal by its lobes: f'(w) = f(R^T w). Rotates the function, not the frame.\n"
         "Bands are independent: a NaN stays in its band.";
     kernel.sources = {std::string(kPaper) + "eq. 10"};
     kernel.has_bound = true;

@@ -18,7 +18,7 @@ using graph::Kernel;
 using graph::Kind;
 using graph::Value;
 
-const char* const kTurnsTheFunction = "Turns the function, not the frame: f'(w) = f(R^T w).";
+const char* const kTurnsTheFunction = "Rotates the function, not the frame: f'(w) = f(R^T w).";
 std::vector<std::string> sources_of(const Plan& plan) {
     std::vector<std::string> sources;
     for (const BandMethod* method : plan)
@@ -41,7 +41,7 @@ Kernel build_blocks(int order) {
     kernel.name = "blocks";
     kernel.summary =
         "The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.\n"
-        "Turns the function, not the frame.";
+        "Rotates the function, not the frame.";
     kernel.sources = {band_method("dense").source};
     kernel.inputs = {rotation_array()};
     kernel.output = {"dense", Kind::rotation, order * (4 * order * order - 1) / 3,
@@ -84,7 +84,7 @@ std::vector<Kernel> build_rotations(int order, const OrderPlans& plans) {
     halves.prepare.name = "prepare";
     halves.prepare.summary =
         "What `apply` needs to know of a rotation: prepare once, apply to many vectors.\n"
-        "Turns the function, not the frame.";
+        "Rotates the function, not the frame.";
     halves.prepare.output.name = "scalars";
     halves.prepare.output.comment = "for `apply`";
     halves.prepare.has_bound = false;

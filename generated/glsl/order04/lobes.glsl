@@ -8,7 +8,7 @@
 
 #ifndef ZONAL_ORDER4_LOBES
 #define ZONAL_ORDER4_LOBES
-// Turns the lobe directions of the table: R times each.
+// Rotates the lobe directions of the table: R times each.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 21 values, unit vectors x, y, z, in table order.
 // Cost: 6 mul 6 add 15 fma 0 other;

@@ -9,7 +9,7 @@
 
 #ifndef ZONAL_ORDER4_STABLE_ROTATE_ZHF
 #define ZONAL_ORDER4_STABLE_ROTATE_ZHF
-// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
+// Rotates a signal by its lobes: f'(w) = f(R^T w). Rotates the function, not the frame.
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 16 values, index l(l+1)+m.

@@ -10,7 +10,7 @@
 
 #ifndef ZONAL_ORDER5_PER_BAND_LOBES
 #define ZONAL_ORDER5_PER_BAND_LOBES
-// Turns the lobe directions of the table: R times each.
+// Rotates the lobe directions of the table: R times each.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 75 values, unit vectors x, y, z, in table order.
 // Cost: 30 mul 21 add 45 fma 0 other;

@@ -11,7 +11,7 @@
 #ifndef ZONAL_ORDER5_ROTATE_FEWEST
 #define ZONAL_ORDER5_ROTATE_FEWEST
 // The exact rotation of one vector by the fewest instructions.
-// Turns the function, not the frame: f'(w) = f(R^T w).
+// Rotates the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 25 values, index l(l+1)+m.

@@ -13,7 +13,7 @@
 
 #ifndef ZONAL_ORDER5_LOBES
 #define ZONAL_ORDER5_LOBES
-// Turns the lobe directions of the table: R times each.
+// Rotates the lobe directions of the table: R times each.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 27 values, unit vectors x, y, z, in table order.
 // Cost: 15 mul 12 add 15 fma 0 other;
@@ -177,7 +177,7 @@ highp vec3 zonal_order5_face_direction(highp vec3 w) {
 #define ZONAL_ORDER5_ROTATE_TAILORED
 // Rotates a static signal of three channels that is tabulated: f'(w) = f(R^T w), signal-tailored.
 // R : 9 values, row-major, of a rotation or a mirror.
-// low : 4 values, the coefficients of bands 0 and 1, which turn without a table.
+// low : 4 values, the coefficients of bands 0 and 1, which rotate without a table.
 // bands : layer k holds band k + 2 on stretched faces (zonal/signal_tables.hpp);
 //   filters linear within a level, nearest or linear between levels.
 // levels : the mip level of each layer, whole numbers.

@@ -9,7 +9,7 @@
 #ifndef ZONAL_ORDER3_PREPARE
 #define ZONAL_ORDER3_PREPARE
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-// Turns the function, not the frame.
+// Rotates the function, not the frame.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // scalars : 34 values, for `apply`.
 // Cost: 39 mul 10 add 24 fma 0 other;

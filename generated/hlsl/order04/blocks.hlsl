@@ -10,7 +10,7 @@
 #ifndef ZONAL_ORDER4_BLOCKS
 #define ZONAL_ORDER4_BLOCKS
 // The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
-// Turns the function, not the frame.
+// Rotates the function, not the frame.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // dense : 84 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: 142 mul 14 add 112 fma 0 other;

@@ -9,7 +9,7 @@
 #ifndef ZONAL_ORDER5_PREPARE
 #define ZONAL_ORDER5_PREPARE
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-// Turns the function, not the frame.
+// Rotates the function, not the frame.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // scalars : 53 values, for `apply`.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the

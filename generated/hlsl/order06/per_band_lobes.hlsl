@@ -11,7 +11,7 @@
 
 #ifndef ZONAL_ORDER6_PER_BAND_LOBES
 #define ZONAL_ORDER6_PER_BAND_LOBES
-// Turns the lobe directions of the table: R times each.
+// Rotates the lobe directions of the table: R times each.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 108 values, unit vectors x, y, z, in table order.
 // Cost: 45 mul 33 add 72 fma 0 other;

@@ -10,7 +10,7 @@
 
 // What to call: the fastest exact rotation with at most five times the least error,
 // rotate_fewest.
-// Turns the function, not the frame: f'(w) = f(R^T w).
+// Rotates the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 36 values, index l(l+1)+m.

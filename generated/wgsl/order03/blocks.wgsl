@@ -8,7 +8,7 @@
 // source  : Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 
 // The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
-// Turns the function, not the frame.
+// Rotates the function, not the frame.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // dense : 35 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: 39 mul 10 add 24 fma 0 other;

@@ -7,7 +7,7 @@
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-// Turns the function, not the frame.
+// Rotates the function, not the frame.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // scalars : 34 values, for `apply`.
 // Cost: 39 mul 10 add 24 fma 0 other;

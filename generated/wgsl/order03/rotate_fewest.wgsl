@@ -8,7 +8,7 @@
 // source  : low bands as tensors, contracted with the rows of R
 
 // The exact rotation of one vector by the fewest instructions.
-// Turns the function, not the frame: f'(w) = f(R^T w).
+// Rotates the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 9 values, index l(l+1)+m.

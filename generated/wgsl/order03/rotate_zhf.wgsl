@@ -8,7 +8,7 @@
 //           relative to |f|; 1.00 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
-// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
+// Rotates a signal by its lobes: f'(w) = f(R^T w). Rotates the function, not the frame.
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 9 values, index l(l+1)+m.

@@ -9,7 +9,7 @@
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
 // The exact rotation of one vector by the fewest instructions.
-// Turns the function, not the frame: f'(w) = f(R^T w).
+// Rotates the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // f : 16 values, index l(l+1)+m.

@@ -6,7 +6,7 @@
 //           per extra vector 0 mul 0 add 0 fma 0 other
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 9
 
-// Turns the lobe directions of the table: R times each.
+// Rotates the lobe directions of the table: R times each.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // directions : 33 values, unit vectors x, y, z, in table order.
 // Cost: 24 mul 15 add 12 fma 0 other;

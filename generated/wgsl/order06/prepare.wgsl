@@ -7,7 +7,7 @@
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
 // What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-// Turns the function, not the frame.
+// Rotates the function, not the frame.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 // scalars : 74 values, for `apply`.
 // Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the

@@ -9,7 +9,7 @@
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 
 // The most accurate exact rotation, mirrors included.
-// Turns the function, not the frame: f'(w) = f(R^T w).
+// Rotates the function, not the frame: f'(w) = f(R^T w).
 // Bands are independent: a NaN stays in its band.
 // R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 // f : 36 values, index l(l+1)+m.

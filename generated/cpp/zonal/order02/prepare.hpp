@@ -11,7 +11,7 @@
 namespace zonal::order2 {
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-/// Turns the function, not the frame.
+/// Rotates the function, not the frame.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// scalars : 9 values, for `apply`.
 /// scalars must not overlap R.

@@ -19,7 +19,7 @@ inline constexpr double kRotateTensorBoundDouble = 4.1e-16;
 inline constexpr double kRotateTensorExcess = 0.55;
 
 /// The exact rotation by products and sums alone, mirrors included: no division, root or pole.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 4 values, index l(l+1)+m.

@@ -19,7 +19,7 @@ inline constexpr double kBlocksBoundDouble = 4.7e-16;
 inline constexpr double kBlocksExcess = 1.08;
 
 /// The dense matrix of every band, for many vectors of one rotation: f'_l = dense_l f_l.
-/// Turns the function, not the frame.
+/// Rotates the function, not the frame.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// dense : 35 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 /// dense must not overlap R.

@@ -20,7 +20,7 @@ inline constexpr double kRotateFewestBoundDouble = 8.6e-16;
 inline constexpr double kRotateFewestExcess = 2.23;
 
 /// The exact rotation of one vector by the fewest instructions.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 9 values, index l(l+1)+m.

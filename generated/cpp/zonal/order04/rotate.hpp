@@ -22,7 +22,7 @@ inline constexpr double kRotateExcess = 2.23;
 
 /// What to call: the fastest exact rotation with at most five times the least error,
 /// rotate_tensor.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 16 values, index l(l+1)+m.
@@ -32,7 +32,7 @@ inline constexpr double kRotateExcess = 2.23;
 /// odd bands.
 /// Where V is not T, a value of several channels, this is rotate_channels.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 48 mul 6 add 89 fma 0 other;
 ///   per extra vector 48 mul 6 add 89 fma 0 other.
 /// Error: 4.5e-07 (float), 8.4e-16 (double), with fused instructions, for det R = +1;

@@ -19,7 +19,7 @@ inline constexpr double kRotateTensorBoundDouble = 8.4e-16;
 inline constexpr double kRotateTensorExcess = 2.23;
 
 /// The exact rotation by products and sums alone, mirrors included: no division, root or pole.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 16 values, index l(l+1)+m.

@@ -23,7 +23,7 @@ inline constexpr double kRotateExcess = 2.00;
 
 /// What to call: the fastest exact rotation with at most five times the least error,
 /// rotate_fewest.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 25 values, index l(l+1)+m.
@@ -33,7 +33,7 @@ inline constexpr double kRotateExcess = 2.00;
 /// odd bands.
 /// Where V is not T, a value of several channels, this is rotate_channels.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 67 mul 5 add 126 fma 3 other;
 ///   per extra vector 60 mul 0 add 100 fma 0 other.
 /// Error: 7.7e-07 (float), 1.7e-15 (double), with fused instructions, for det R = +1;

@@ -12,14 +12,14 @@
 namespace zonal::order6 {
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-/// Turns the function, not the frame.
+/// Rotates the function, not the frame.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// scalars : 74 values, for `apply`.
 /// scalars must not overlap R.
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 48 mul 5 add 32 fma 3 other;
 ///   per extra vector 0 mul 0 add 0 fma 0 other.
 /// Source: low bands as tensors, contracted with the rows of R.

@@ -20,7 +20,7 @@ inline constexpr double kRotateAccurateBoundDouble = 7.1e-16;
 inline constexpr double kRotateAccurateExcess = 2.67;
 
 /// The most accurate exact rotation, mirrors included.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 36 values, index l(l+1)+m.

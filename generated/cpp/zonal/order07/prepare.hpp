@@ -12,14 +12,14 @@
 namespace zonal::order7 {
 
 /// What `apply` needs to know of a rotation: prepare once, apply to many vectors.
-/// Turns the function, not the frame.
+/// Rotates the function, not the frame.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// scalars : 105 values, for `apply`.
 /// scalars must not overlap R.
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 95 mul 7 add 33 fma 3 other;
 ///   per extra vector 0 mul 0 add 0 fma 0 other.
 /// Source: low bands as tensors, contracted with the rows of R.

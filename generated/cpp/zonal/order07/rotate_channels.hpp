@@ -20,7 +20,7 @@ inline constexpr double kRotateChannelsBoundDouble = 1.9e-15;
 inline constexpr double kRotateChannelsExcess = 3.00;
 
 /// The exact rotation of three vectors at once by the fewest instructions.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 49 values, index l(l+1)+m.
@@ -29,7 +29,7 @@ inline constexpr double kRotateChannelsExcess = 3.00;
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 182 mul 8 add 291 fma 3 other;
 ///   per extra vector 120 mul 0 add 257 fma 0 other.
 /// Error: 8.8e-07 (float), 1.9e-15 (double), with fused instructions, for det R = +1;

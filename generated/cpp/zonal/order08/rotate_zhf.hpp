@@ -19,7 +19,7 @@ inline constexpr double kRotateZhfBoundFloat = 7.6e-06;
 inline constexpr double kRotateZhfBoundDouble = 1.1e-14;
 inline constexpr double kRotateZhfExcess = 3.50;
 
-/// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
+/// Rotates a signal by its lobes: f'(w) = f(R^T w). Rotates the function, not the frame.
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 64 values, index l(l+1)+m.

@@ -18,7 +18,7 @@ inline constexpr double kRotateZhfBoundFloat = 3.4e-06;
 inline constexpr double kRotateZhfBoundDouble = 7.1e-15;
 inline constexpr double kRotateZhfExcess = 3.50;
 
-/// Rotates a signal by its lobes: f'(w) = f(R^T w). Turns the function, not the frame.
+/// Rotates a signal by its lobes: f'(w) = f(R^T w). Rotates the function, not the frame.
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// f : 64 values, index l(l+1)+m.

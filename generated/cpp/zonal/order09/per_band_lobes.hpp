@@ -17,7 +17,7 @@
 
 namespace zonal::order9::per_band {
 
-/// Turns the lobe directions of the table: R times each.
+/// Rotates the lobe directions of the table: R times each.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1 or -1.
 /// directions : 243 values, unit vectors x, y, z, in table order.
 /// directions must not overlap R.

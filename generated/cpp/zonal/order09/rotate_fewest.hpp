@@ -21,7 +21,7 @@ inline constexpr double kRotateFewestBoundDouble = 2.6e-15;
 inline constexpr double kRotateFewestExcess = 4.00;
 
 /// The exact rotation of one vector by the fewest instructions.
-/// Turns the function, not the frame: f'(w) = f(R^T w).
+/// Rotates the function, not the frame: f'(w) = f(R^T w).
 /// Bands are independent: a NaN stays in its band.
 /// R : 9 values, row-major, dimensionless, orthonormal rows, det R = +1.
 /// f : 81 values, index l(l+1)+m.
@@ -31,7 +31,7 @@ inline constexpr double kRotateFewestExcess = 4.00;
 /// odd bands.
 /// Where V is not T, a value of several channels, this is rotate_channels.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R turns z onto itself or -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 267 mul 12 add 592 fma 3 other;
 ///   per extra vector 228 mul 1 add 549 fma 0 other.
 /// Error: 1.5e-06 (float), 2.6e-15 (double), with fused instructions, for det R = +1;
