@@ -197,23 +197,25 @@ std::string command_of(const EmitOptions& options, const OrderKernels& order, co
                        options.is_optimized ? " --optimize" : "");
 }
 
+/// The kernels that files hold, by plain name.
+std::vector<std::string> kernels_of(const emit::Unit& unit, const Files& files) {
+    std::vector<std::string> names;
+    for (const emit::File& file : files) {
+        const fs::path path = file.path;
+        if (path.parent_path().filename() == unit.folder) names.push_back(path.stem().string());
+    }
+    return names;
+}
+
 /// Each name of --kernels is one that the language has.
 void check_kernels(emit::Unit unit, const OrderKernels& order, const std::string& language,
                    const Files& files) {
-    const auto kernels_of = [&](const Files& written) {
-        std::vector<std::string> names;
-        for (const emit::File& file : written) {
-            const fs::path path = file.path;
-            if (path.parent_path().filename() == unit.folder) names.push_back(path.stem().string());
-        }
-        return names;
-    };
     std::set<std::string> missing = unit.wanted;
-    for (const std::string& name : kernels_of(files)) missing.erase(name);
+    for (const std::string& name : kernels_of(unit, files)) missing.erase(name);
     if (missing.empty()) return;
     unit.wanted.clear();
     std::string known;
-    for (const std::string& name : kernels_of(languages().at(language).print(unit, order, {})))
+    for (const std::string& name : kernels_of(unit, languages().at(language).print(unit, order, {})))
         known += (known.empty() ? "" : ", ") + name;
     throw UserError(fmt::format("--kernels: found '{}', wanted some of what {} has in {}: {}",
                                 *missing.begin(), unit.name, language, known));
@@ -253,6 +255,7 @@ void run(const EmitOptions& options) {
     TableShelf shelf = project_tables();
     Files all;
     std::set<std::string> paths;  // orders share files
+    bool is_table_used = options.table.empty();
     for (const auto& [number, names] : jobs_of(options)) {
         const OrderKernels order = build_order_kernels(shelf, number, options.table);
         for (const std::string& name : names) {
@@ -263,12 +266,19 @@ void run(const EmitOptions& options) {
             };
             Files files = language.print(unit, order, options);
             check_kernels(unit, order, name, files);
+            for (const std::string& kernel : kernels_of(unit, files))
+                is_table_used = is_table_used || is_made_of_chosen(order, kernel);
             for (emit::File& file : files) {
                 file.path = (folder_of(options, name) / file.path).string();
                 if (paths.insert(file.path).second) all.push_back(std::move(file));
             }
         }
     }
+    if (!is_table_used)
+        throw UserError(
+            fmt::format("--table: found {}, of which no kernel that would be written is made; "
+                        "wanted kernels of lobes too, such as resample of C++, or no table",
+                        options.table));
     for (const emit::File& file : all) {
         write_file_atomically(file.path, file.content);
         fmt::print("{}\n", program::shown_on_stdout(file.path));

@@ -386,6 +386,18 @@ TEST(Emit, banner_of_a_chosen_table_holds_the_command_that_makes_it_again) {
     EXPECT_EQ(read(header), text);
 }
 
+TEST(Emit, a_table_that_no_kernel_is_made_of_is_an_error) {
+    const fs::path folder = fresh_folder("idle_table");
+    for (const char* what : {"--language js", "--language cpp --kernels rotate,blocks"}) {
+        const Outcome result = zonal_gen(
+            fmt::format("emit --order 3 {} --table '{}/generator/tables/shared/order03.json' --out '{}'",
+                        what, ZONAL_SOURCE_DIR, folder.string()));
+        EXPECT_EQ(result.status, 1) << what;
+        EXPECT_THAT(result.output, AllOf(HasSubstr("--table"), HasSubstr("order03.json"))) << what;
+    }
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
 TEST(Emit, a_table_that_cannot_serve_gets_advice_that_helps) {
     const fs::path folder = fs::path(ZONAL_SOURCE_DIR) / "generator/tables";
     const auto complaint_about = [&](int order, const fs::path& table) {
