@@ -78,34 +78,34 @@ Files glsl_files(const emit::Unit& unit, const OrderKernels& order) {
     return files;
 }
 
-/// What writes a language, and where its code runs.
+/// What writes a language, and how its code computes.
 struct Language {
-    kernels::Processor processor;
+    emit::Arithmetic arithmetic;
     std::function<Files(const emit::Unit&, const OrderKernels&, const EmitOptions&)> print;
 };
 
 /// Adding a language is one entry here.
 const std::map<std::string, Language>& languages() {
-    using enum kernels::Processor;
+    using enum emit::Arithmetic;
     static const std::map<std::string, Language> all{
         {"cpp",
-         {cpu, [](const emit::Unit& unit, const OrderKernels&,
+         {cpp, [](const emit::Unit& unit, const OrderKernels&,
                   const EmitOptions&) { return emit::print_cpp(unit); }}},
         {"glsl",
-         {gpu, [](const emit::Unit& unit, const OrderKernels& order,
-                  const EmitOptions&) { return glsl_files(unit, order); }}},
+         {shader, [](const emit::Unit& unit, const OrderKernels& order,
+                     const EmitOptions&) { return glsl_files(unit, order); }}},
         {"hlsl",
-         {gpu, [](const emit::Unit& unit, const OrderKernels&,
-                  const EmitOptions&) { return emit::print_shader_functions(unit, emit::kHlsl); }}},
+         {shader, [](const emit::Unit& unit, const OrderKernels&,
+                     const EmitOptions&) { return emit::print_shader_functions(unit, emit::kHlsl); }}},
         {"js",
-         {cpu, [](const emit::Unit& unit, const OrderKernels&,
+         {cpp, [](const emit::Unit& unit, const OrderKernels&,
                   const EmitOptions&) { return emit::print_js(unit); }}},
         {"spirv",
-         {gpu, [](const emit::Unit& unit, const OrderKernels&,
-                  const EmitOptions& options) { return spirv_files(unit, options); }}},
+         {shader, [](const emit::Unit& unit, const OrderKernels&,
+                     const EmitOptions& options) { return spirv_files(unit, options); }}},
         {"wgsl",
-         {gpu, [](const emit::Unit& unit, const OrderKernels&,
-                  const EmitOptions&) { return emit::print_wgsl(unit); }}},
+         {shader, [](const emit::Unit& unit, const OrderKernels&,
+                     const EmitOptions&) { return emit::print_wgsl(unit); }}},
     };
     return all;
 }
@@ -137,15 +137,17 @@ std::vector<TablePointer> tables_of(const graph::Kernel& kernel, const OrderTabl
     return {kernel.name == "rotate_zhf" ? tables.rotate_zhf : tables.shared};
 }
 
-/// Puts `rotate` in front: what that processor does fastest within bounds.
-void add_rotate(emit::Unit& unit, const OrderKernels& order, kernels::Processor processor) {
+/// Puts `rotate` in front: what the processor of the language does fastest within bounds.
+void add_rotate(emit::Unit& unit, const OrderKernels& order) {
+    using enum kernels::Processor;
+    const kernels::Processor processor = unit.arithmetic == emit::Arithmetic::shader ? gpu : cpu;
     const kernels::RotateChoice choice = chosen_rotate(order, processor);
     unit.kernels.insert(unit.kernels.begin(), kernels::make_rotate(order.kernels, choice));
     unit.bounds["rotate"] = unit.bounds.at(choice.one);
 }
 
 /// All but the command.
-emit::Unit make_unit(const OrderKernels& order, kernels::Processor processor, const EmitOptions& options) {
+emit::Unit make_unit(const OrderKernels& order, emit::Arithmetic arithmetic, const EmitOptions& options) {
     emit::Unit unit;
     unit.name = fmt::format("order{}", order.order);
     unit.folder = fmt::format("order{:02}", order.order);
@@ -157,11 +159,12 @@ emit::Unit make_unit(const OrderKernels& order, kernels::Processor processor, co
         for (const TablePointer& source : tables_of(kernel, order.tables))
             unit.tables[kernel.full_name()].push_back(
                 fmt::format("{}  sha256:{}", source->name, source->table.short_hash()));
-    unit.bounds = published_bounds(order.order, order.tables, order.kernels);
+    unit.arithmetic = arithmetic;
+    unit.bounds = published_bounds(order);
     const auto has = [&](const auto& is_wanted) {
         return std::ranges::any_of(unit.kernels, is_wanted) ? 1 : 0;
     };
-    add_rotate(unit, order, processor);
+    add_rotate(unit, order);
     const graph::Kernel& prepare = graph::kernel_named(order.kernels, "prepare");
     const bool takes_mirrors = !unit.kernels.front().needs_proper_rotation && !prepare.needs_proper_rotation;
     unit.constants = {
@@ -260,7 +263,7 @@ void run(const EmitOptions& options) {
         const OrderKernels order = build_order_kernels(shelf, number, options.table);
         for (const std::string& name : names) {
             const Language& language = languages().at(name);
-            emit::Unit unit = make_unit(order, language.processor, options);
+            emit::Unit unit = make_unit(order, language.arithmetic, options);
             unit.command = [&](const std::string& kernel) {
                 return command_of(options, order, name, kernel);
             };

@@ -6,9 +6,11 @@ namespace zonal {
 
 kernels::RotateChoice chosen_rotate(const OrderKernels& order, kernels::Processor processor) {
     std::map<std::string, kernels::ErrorBounds> bounds;
-    for (const auto& [kernel, bound] : published_bounds(order.order, order.tables, order.kernels)) {
-        const double in_float = std::stod(bound.float_text);
-        bounds[kernel] = {in_float, processor == kernels::Processor::cpu ? std::stod(bound.double_text) : 0};
+    for (const auto& [kernel, bound] : published_bounds(order)) {
+        if (processor == kernels::Processor::gpu)
+            bounds[kernel] = {std::stod(bound.shader), 0};
+        else
+            bounds[kernel] = {std::stod(bound.float_text), std::stod(bound.double_text)};
     }
     return kernels::choose_rotate(order.order, order.kernels, bounds, processor);
 }

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "bounds/body_hash.hpp"
+#include "bounds/derived.hpp"
 #include "io/input_file.hpp"
 #include "io/json_text.hpp"
 #include "io/user_error.hpp"
@@ -19,11 +23,27 @@ namespace {
         path, field, found, wanted));
 }
 
-std::string table_of(const OrderTables& tables) {
-    return tables.rotate_zhf ? tables.rotate_zhf->table.short_hash() : "";
+/// Two digits, rounded up.
+std::string rounded_up(double bound) {
+    const double unit = std::pow(10.0, std::floor(std::log10(bound)) - 1);
+    return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
+}
+
+/// A derived bound that is a hundred times what was measured tells nobody anything: none then.
+Bound with_derived(Bound bound, const graph::Kernel& kernel) {
+    constexpr double kFloat = 0x1p-24, kDouble = 0x1p-53, kMost = 100;
+    const std::optional<DerivedBound> derived = derived_bound(kernel);
+    if (!derived || derived->apart * kFloat > kMost * std::stod(bound.float_text)) return bound;
+    bound.float_derived = rounded_up(derived->fused * kFloat);
+    bound.double_derived = rounded_up(derived->fused * kDouble);
+    bound.float_apart_derived = rounded_up(derived->apart * kFloat);
+    bound.double_apart_derived = rounded_up(derived->apart * kDouble);
+    return bound;
 }
 
 }  // namespace
+
+std::filesystem::path bounds_file() { return (tables_folder() / "../bounds/bounds.json").lexically_normal(); }
 
 std::vector<MeasuredBound> read_bounds(const std::filesystem::path& path) {
     const std::string name = path.string();
@@ -40,43 +60,53 @@ std::vector<MeasuredBound> read_bounds(const std::filesystem::path& path) {
     const auto list = field_as<std::vector<Json>>(
         file, "bounds", [&](const std::string& found) { complain(name, "bounds", found, "a list"); });
     for (const Json& entry : list) {
-        const auto text = [&](const char* field) {
-            return field_as<std::string>(entry, field, [&](const std::string& found) {
-                complain(name, fmt::format("bounds[{}].{}", bounds.size(), field), found, "a text");
-            });
+        const auto refuse = [&](const char* field, const char* wanted) {
+            return [&name, &bounds, field, wanted](const std::string& found) {
+                complain(name, fmt::format("bounds[{}].{}", bounds.size(), field), found, wanted);
+            };
         };
         const auto decimal = [&](const char* field) {  // goes into generated code as it stands
-            const std::string number = text(field);
+            const auto number = field_as<std::string>(entry, field, refuse(field, "a text"));
             if (!program::number_in(number, program::above(0, 1e6)))
-                complain(name, fmt::format("bounds[{}].{}", bounds.size(), field), shown_value(Json(number)),
-                         "a positive decimal");
+                refuse(field, "a positive decimal")(shown_value(Json(number)));
             return number;
         };
-        const int order = field_as<int>(entry, "order", [&](const std::string& found) {
-            complain(name, fmt::format("bounds[{}].order", bounds.size()), found, "a whole number");
-        });
-        bounds.push_back(
-            {text("kernel"), order, text("table"), {decimal("float"), decimal("double"), decimal("excess")}});
+        MeasuredBound measured;
+        measured.order = field_as<int>(entry, "order", refuse("order", "a whole number"));
+        measured.body = field_as<std::string>(entry, "body", refuse("body", "a text"));
+        measured.kernels =
+            field_as<std::vector<std::string>>(entry, "kernels", refuse("kernels", "a list of texts"));
+        measured.bound.float_text = decimal("float");
+        measured.bound.double_text = decimal("double");
+        measured.bound.float_apart = decimal("float_apart");
+        measured.bound.double_apart = decimal("double_apart");
+        measured.bound.shader = decimal("shader");
+        measured.bound.excess_text = decimal("excess");
+        bounds.push_back(std::move(measured));
     }
     return bounds;
 }
 
-std::map<std::string, emit::Bound> published_bounds(int order, const OrderTables& tables,
-                                                    const std::vector<graph::Kernel>& kernels) {
-    const std::filesystem::path path = tables_folder() / "bounds.json";
-    std::map<std::string, emit::Bound> published;
-    for (const MeasuredBound& bound : read_bounds(path))
-        if (bound.order == order && (bound.table.empty() || bound.table == table_of(tables)))
-            published[bound.kernel] = bound.bound;
-    for (const graph::Kernel& kernel : kernels) {
-        const bool is_of_chosen = kernel.needs_lobes && tables.chosen && tables.rotate_zhf == tables.chosen;
-        if (!kernel.has_bound || is_of_chosen || published.contains(kernel.full_name())) continue;
-        const std::string of_table =
-            kernel.needs_lobes ? fmt::format(" made of the table sha256:{}", table_of(tables)) : "";
+std::map<std::string, Bound> published_bounds(const OrderKernels& order) {
+    const std::filesystem::path path = bounds_file();
+    std::map<std::string, Bound> by_body;
+    for (const MeasuredBound& measured : read_bounds(path))
+        if (measured.order == order.order) by_body[measured.body] = measured.bound;
+    std::map<std::string, Bound> published;
+    for (const graph::Kernel& kernel : order.kernels) {
+        if (!kernel.has_bound) continue;
+        const std::string body = body_hash(kernel, order.kernels);
+        if (by_body.contains(body)) {
+            published[kernel.full_name()] = with_derived(by_body.at(body), kernel);
+            continue;
+        }
+        const OrderTables& tables = order.tables;
+        if (kernel.needs_lobes && tables.chosen && tables.rotate_zhf == tables.chosen) continue;
         throw UserError(fmt::format(
-            "{}: bounds: found none of {} of order {}{}, wanted one; restore the tables and this file, or, "
-            "after a change of either or of the kernel, measure: zonal-measure-bounds --orders {} --out {}",
-            path.string(), kernel.full_name(), order, of_table, order, path.string()));
+            "{}: bounds: found none of {} of order {} with the body {}, wanted one; restore the tables and "
+            "this file, or, after a change of either or of the kernel, measure: zonal-measure-bounds "
+            "--missing --orders {} --out {}",
+            path.string(), kernel.full_name(), order.order, body, order.order, path.string()));
     }
     return published;
 }

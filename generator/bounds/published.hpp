@@ -5,27 +5,28 @@
 #include <string>
 #include <vector>
 
-#include "emit/unit.hpp"
-#include "graph/kernel.hpp"
-#include "lobes/order_tables.hpp"
+#include "bounds/bound.hpp"
+#include "kernels/order_kernels.hpp"
 
 namespace zonal {
 
-/// An entry of a file of bounds (generator/tables/README.md says how they are measured).
+/// An entry of a file of bounds (generator/bounds/README.md says how they are measured).
 struct MeasuredBound {
-    std::string kernel;
     int order = 0;
-    std::string table;  ///< short hash of the table it is of; empty where the kernel needs none
-    emit::Bound bound;
+    std::string body;                  ///< hash of the arithmetic that it is of
+    std::vector<std::string> kernels;  ///< that had this body when it was measured: for readers
+    Bound bound;                       ///< what is measured of it
 };
+
+/// The project's own file: `bounds/bounds.json` beside the folder of tables.
+std::filesystem::path bounds_file();
 
 /// Throws `UserError` naming file, field, value and next step.
 std::vector<MeasuredBound> read_bounds(const std::filesystem::path& path);
 
-/// The project's published error bounds by kernel: of an order those of kernels that need no table, and of
-/// the very table that `rotate_zhf` is made of. Throws `UserError` where a kernel has none, but for one of a
-/// table that somebody chose, which nobody has measured.
-std::map<std::string, emit::Bound> published_bounds(int order, const OrderTables& tables,
-                                                    const std::vector<graph::Kernel>& kernels);
+/// The bounds of an order's kernels by full name, those of the very arithmetic that they have, derived ones
+/// beside them. Throws `UserError` where a kernel has none, but for one of a table that somebody chose, which
+/// nobody has measured.
+std::map<std::string, Bound> published_bounds(const OrderKernels& order);
 
 }  // namespace zonal

@@ -1,6 +1,7 @@
 #include "emit/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -13,13 +14,37 @@ namespace zonal::emit {
 
 namespace {
 
-/// The largest error that is published for a kernel; |f| is its input's norm.
+/// How a bound was made, and the derived ones beside it.
+std::string origin_text(const std::vector<std::string>& derived) {
+    if (derived.front().empty()) return "measured x 1.5";
+    return fmt::format("measured x 1.5; derived: {}", fmt::join(derived, ", "));
+}
+
+/// The largest error that is published for a kernel, in the language's arithmetic; |f| is its input's norm.
 std::vector<std::string> bound_lines(const Unit& unit, const graph::Kernel& kernel) {
-    const auto bound = unit.bounds.find(kernel.full_name());
-    if (bound == unit.bounds.end()) return {"none published: see generator/tables/README.md"};
-    return {fmt::format("{} (float), {} (double), with fused instructions, for {};", bound->second.float_text,
-                        bound->second.double_text, domain_text(kernel)),
-            fmt::format("relative to |f|; {} |R R^T - I|_F is added", bound->second.excess_text)};
+    const auto found = unit.bounds.find(kernel.full_name());
+    if (found == unit.bounds.end()) return {"none published: see generator/bounds/README.md"};
+    const Bound& bound = found->second;
+    const std::string domain = domain_text(kernel);
+    const std::string last = fmt::format("relative to |f|; {} |R R^T - I|_F is added", bound.excess_text);
+    switch (unit.arithmetic) {
+        case Arithmetic::cpp:
+            return {fmt::format("{} (float), {} (double), with fused instructions, for {};", bound.float_text,
+                                bound.double_text, domain),
+                    fmt::format("{}, {} without them; {};", bound.float_apart, bound.double_apart,
+                                origin_text({bound.float_apart_derived, bound.double_apart_derived})),
+                    last};
+        case Arithmetic::javascript:
+            return {fmt::format("{} in double, for {};", bound.double_apart, domain),
+                    fmt::format("{};", origin_text({bound.double_apart_derived})), last};
+        case Arithmetic::shader:
+            return {fmt::format("{} in float, for {}, fused or not, with quotients and roots", bound.shader,
+                                domain),
+                    fmt::format("as inexact as GLSL and Vulkan allow; {};",
+                                origin_text({bound.float_apart_derived})),
+                    last};
+    }
+    return {};
 }
 
 /// The operations of one vector, and of every further one of the same rotation.
@@ -139,6 +164,9 @@ std::string shader_comment(const Unit& unit, const graph::Kernel& kernel) {
         const graph::Cost cost = graph::count_operations(for_channels(unit, kernel));
         lines.push_back(fmt::format("Three channels: {} once,", counts_text(cost.per_rotation)));
         lines.push_back(fmt::format("  {} for each.", counts_text(cost.per_vector)));
+        const auto bound = unit.bounds.find(for_channels(unit, kernel).full_name());
+        if (bound != unit.bounds.end() && unit.arithmetic == Arithmetic::shader)
+            lines.push_back(fmt::format("  Their error: {}, else as above.", bound->second.shader));
     }
     return comment("//", lines);
 }

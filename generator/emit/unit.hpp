@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "bounds/bound.hpp"
 #include "graph/kernel.hpp"
 
 namespace zonal::emit {
 
-/// The published largest error of one kernel relative to the norm of its input, by type, and what is added to
-/// it for each unit of |R R^T - I|_F.
-struct Bound {
-    std::string float_text;
-    std::string double_text;
-    std::string excess_text;
+/// In which arithmetic a language runs, and so which bounds it publishes.
+enum class Arithmetic {
+    cpp,         ///< float or double, fused or apart
+    javascript,  ///< double, apart
+    shader       ///< float, fused or apart as the compiler likes, quotients and roots not exact
 };
 
 /// A number that callers need to know at compile time.
@@ -33,6 +33,7 @@ struct Unit {
     std::string basis;   ///< the convention, one line
     std::vector<graph::Kernel> kernels;
     std::vector<Constant> constants;
+    Arithmetic arithmetic = Arithmetic::cpp;
     std::map<std::string, Bound> bounds;  ///< by kernel; one without says so in its banner
     /// The lobe tables that a kernel is made of, path and hash, by kernel; none where it needs none.
     std::map<std::string, std::vector<std::string>> tables;

@@ -8,9 +8,25 @@
 
 namespace zonal::graph {
 
-/// Runs a kernel in floating-point type T as printed code with fused instructions would: the same operations
-/// on constants rounded to T. `inputs` holds one pointer an input array; the output must not be one of them.
-template <class T>
+/// Products and sums rounded once, quotients and roots to the nearest.
+struct Fused {
+    template <class T>
+    static T fma(T a, T b, T c) {
+        return std::fma(a, b, c);
+    }
+    template <class T>
+    static T divide(T a, T b) {
+        return a / b;
+    }
+    template <class T>
+    static T square_root(T a) {
+        return std::sqrt(a);
+    }
+};
+
+/// Runs a kernel in floating-point type T as printed code would: the same operations on constants rounded to
+/// T, by an arithmetic. `inputs` holds one pointer an input array; the output must not be one of them.
+template <class T, class Arithmetic = Fused>
 class Evaluator {
   public:
     explicit Evaluator(const Kernel& kernel) : kernel_(kernel), values_(kernel.graph.size()) {
@@ -42,12 +58,12 @@ class Evaluator {
             case Op::multiply:
                 return operand(0) * operand(1);
             case Op::fused:
-                return std::fma(node.negated_product ? -operand(0) : operand(0), operand(1),
-                                node.negated_addend ? -operand(2) : operand(2));
+                return Arithmetic::fma(node.negated_product ? -operand(0) : operand(0), operand(1),
+                                       node.negated_addend ? -operand(2) : operand(2));
             case Op::divide:
-                return operand(0) / operand(1);
+                return Arithmetic::divide(operand(0), operand(1));
             case Op::square_root:
-                return std::sqrt(operand(0));
+                return Arithmetic::square_root(operand(0));
             case Op::copy_sign:
                 return std::copysign(operand(std::is_same_v<T, float> ? 1 : 0), operand(2));
         }

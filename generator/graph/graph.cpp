@@ -179,6 +179,7 @@ void Graph::set_name(Id id, const std::string& name) {
 void Graph::copy_labels(Id id, const Node& from) {
     if (nodes_[id].name.empty()) nodes_[id].name = from.name;
     if (nodes_[id].scope.empty()) nodes_[id].scope = from.scope;
+    set_most(id, from.most);
 }
 
 }  // namespace zonal::graph

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -56,6 +57,8 @@ struct Node {
     int index = 0;                 ///< input only: which element of it
     std::string name;              ///< what the value means, for printers; empty: the scope and a number
     std::string scope;             ///< the part of the kernel that made it, such as "b3_d2"
+    /// What its magnitude does not exceed, where its builder knows.
+    double most = std::numeric_limits<double>::infinity();
 };
 
 /// An expression graph that knows no language and no spherical harmonics. Building it folds constants, shares
@@ -90,7 +93,9 @@ class Graph {
     void set_scope(std::string scope) { scope_ = std::move(scope); }
     /// Gives a value its meaning, and with "minus_" what it is the negative of; the first name stays.
     void set_name(Id id, const std::string& name);
-    /// Copies name and scope of another graph's node, for passes that rebuild a graph.
+    /// Says that a scalar's magnitude is at most so much.
+    void set_most(Id id, double most) { nodes_[id].most = std::min(nodes_[id].most, most); }
+    /// Copies name, scope and largest magnitude of another graph's node, for passes that rebuild a graph.
     void copy_labels(Id id, const Node& from);
 
   private:

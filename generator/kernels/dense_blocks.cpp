@@ -135,6 +135,7 @@ std::vector<std::vector<Value>> dense_blocks(graph::Kernel& kernel, const Matrix
                 graph.set_scope(fmt::format("d{}", l));
                 block.push_back(entry(m, n));
                 graph.set_name(block.back().id, fmt::format("d{}_{}_{}", l, l + m, l + n));
+                graph.set_most(block.back().id, 1);  // an entry of an orthogonal matrix
             }
         }
         blocks.push_back(std::move(block));

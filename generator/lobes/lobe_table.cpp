@@ -2,12 +2,12 @@
 #include "lobes/lobe_table.hpp"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <stdexcept>
 
 #include "io/input_file.hpp"
 #include "io/output_file.hpp"
+#include "io/sha256.hpp"
 #include "io/user_error.hpp"
 #include "lobes/table_check.hpp"
 #include "lobes/table_json.hpp"
@@ -21,17 +21,6 @@ std::string read_bytes(const std::filesystem::path& path, const TableComplaints&
     } catch (const Unreadable& error) {
         complaints.unreadable(error.what());
     }
-}
-
-std::string sha256_hex(const std::string& bytes) {
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned int length = 0;
-    if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1) {
-        throw std::runtime_error("OpenSSL has no SHA-256");
-    }
-    std::string hex;
-    for (unsigned int i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
-    return hex;
 }
 
 LobeTable read(const std::filesystem::path& path, const LobeUse& use, bool is_for_any, double condition_cap) {

@@ -95,7 +95,8 @@ CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<T>&
     const auto standard = [&values] { return CLI::detail::join(values, " "); };
     return app.add_option(name, read, detail::description_of(description, limits), false, standard)
         ->type_name("NUMBER")
-        ->expected(1, CLI::detail::expected_max_vector_size);
+        ->expected(1, CLI::detail::expected_max_vector_size)
+        ->allow_extra_args();  // else CLI11 takes the fewest
 }
 
 }  // namespace zonal::program

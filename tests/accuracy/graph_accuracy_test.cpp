@@ -15,7 +15,7 @@ template <class T>
 void expect_within_bounds(int order) {
     constexpr bool kIsFloat = std::is_same_v<T, float>;
     const OrderKernels& kernels = built_order(order);
-    const auto bounds = published_bounds(order, kernels.tables, kernels.kernels);
+    const auto bounds = published_bounds(kernels);
     std::map<std::string, double> excess;
     for (const auto& [name, bound] : bounds) excess[name] = std::stod(bound.excess_text);
     const int random_count = order <= 10 ? 300 : 30;
@@ -32,7 +32,7 @@ void expect_within_bounds(int order) {
     for (std::size_t k = 0; k < contestants.size(); ++k) {
         const std::string& name = contestants[k].name;
         ASSERT_TRUE(bounds.contains(name)) << name << ", order " << order << ": no bound is published";
-        const emit::Bound& bound = bounds.at(name);
+        const Bound& bound = bounds.at(name);
         EXPECT_LE(worst[k].error, std::stod(kIsFloat ? bound.float_text : bound.double_text))
             << name << ", order " << order << ", " << worst[k].name;
         EXPECT_LE(worst[k].error_of_rotations, accuracy::contract(name, order, kIsFloat))

@@ -42,7 +42,7 @@ TEST_P(GraphNoise, costs_what_the_contract_grants) {
     const int order = GetParam();
     const double granted = (order - 1) / 2.0;
     const OrderKernels& kernels = built_order(order);
-    const auto bounds = published_bounds(order, kernels.tables, kernels.kernels);
+    const auto bounds = published_bounds(kernels);
     const auto contestants = graph_contestants<double>(order, kernels.kernels, {});
     ASSERT_EQ(contestants.size(), bounds.size()) << "a kernel is gone that publishes a bound";
     for (const auto& kernel : contestants) {

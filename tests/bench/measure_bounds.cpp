@@ -1,16 +1,18 @@
-// Measures the error bounds that banners publish, and writes them to generator/tables/bounds.json.
+// Measures the error bounds that banners publish, and writes them to generator/bounds/bounds.json.
 //
-// Kernels run from their graphs: the operations of the printed code with fused instructions. Four steps a
-// kernel:
+// Kernels run from their graphs, in each arithmetic that printed code meets: with fused instructions, with
+// products and sums rounded apart, and as inexact as shader languages allow. Four steps a kernel:
 //   excess  what |R R^T - I|_F adds: random matrices orthonormal only to 1e-3 and 1e-5 and those of the noisy
 //           problems, in double, where rounding is nothing beside that; per band the largest singular value
 //           of the error matrix is the worst over all signals.
 //   signals for every other rotation (random and hard ones) the error matrix again, in the type that is
-//           judged; its leading right singular vector is a signal that the kernel turns as badly as any.
+//           judged (for shaders: with each of fused and apart); its leading right singular vector is a signal
+//           that the kernel turns as badly as any.
 //   bound   the largest error with such signals and with random ones, less the excess, times a margin.
 //   turns   the largest errors of rounding are rare: hundreds of thousands of random turns in float, band by
 //           band, judged by the accurate kernel in double. Where they need it, the bound is raised, that in
-//           double in the ratio of the two units of rounding.
+//           double in the ratio of the two units of rounding. No other arithmetic has a lower bound than
+//           fused instructions.
 #include <fmt/format.h>
 #include <tbb/parallel_for_each.h>
 
@@ -18,13 +20,17 @@
 #include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
+#include "bounds/body_hash.hpp"
 #include "bounds/published.hpp"
+#include "graph/counts.hpp"
 #include "io/output_file.hpp"
 #include "kernels/order_kernels.hpp"
 #include "program/numbers.hpp"
 #include "program/program.hpp"
+#include "support/arithmetic.hpp"
 #include "support/graph_kernels.hpp"
 #include "support/many_turns.hpp"
 #include "support/worst_signal.hpp"
@@ -48,6 +54,7 @@ struct Options {
     std::vector<int> orders;
     std::vector<std::string> kernels;
     bool only_turns = false;
+    bool only_missing = false;
     std::string out;
 };
 
@@ -104,11 +111,46 @@ std::map<std::string, double> measure_excess(const OrderKernels& order, const Op
     return excess;
 }
 
+const std::string kApart = " apart", kAllowed = " as shaders may";
+
+bool has_quotient_or_root(const graph::Kernel& kernel) {
+    return graph::count_operations(kernel).total().other > 0;
+}
+
+/// Every kernel in the arithmetics of T, their names behind its own.
+template <class T>
+std::vector<accuracy::Contestant<T>> in_all_arithmetics(const OrderKernels& order,
+                                                        const std::map<std::string, double>& excess) {
+    std::vector<accuracy::Contestant<T>> all;
+    const auto add = [&](const std::string& suffix, std::vector<accuracy::Contestant<T>> contestants) {
+        for (auto& contestant : contestants) {
+            contestant.name += suffix;
+            all.push_back(std::move(contestant));
+        }
+    };
+    using arithmetic::Allowed, arithmetic::Apart;
+    add("", graph_contestants<T>(order.order, order.kernels, excess));
+    add(kApart, graph_contestants<T, Apart>(order.order, order.kernels, excess));
+    if constexpr (std::is_same_v<T, float>) {
+        // Without quotients and roots they do what fused and apart do.
+        std::set<std::string> inexact;
+        for (const graph::Kernel& kernel : order.kernels)
+            if (has_quotient_or_root(kernel)) inexact.insert(kernel.name == "prepare" ? "apply" : kernel.full_name());
+        const auto add_allowed = [&](const std::string& base, std::vector<accuracy::Contestant<T>> contestants) {
+            std::erase_if(contestants, [&](const auto& some) { return !inexact.contains(some.name); });
+            add(kAllowed + base, std::move(contestants));
+        };
+        add_allowed(", fused", graph_contestants<T, Allowed<graph::Fused>>(order.order, order.kernels, excess));
+        add_allowed(", apart", graph_contestants<T, Allowed<Apart>>(order.order, order.kernels, excess));
+    }
+    return all;
+}
+
 template <class T>
 std::map<std::string, double> measure_bounds(const OrderKernels& order,
                                              const std::map<std::string, double>& excess,
                                              const Options& options) {
-    const auto kernels = graph_contestants<T>(order.order, order.kernels, excess);
+    const auto kernels = in_all_arithmetics<T>(order, excess);
     const oracle::Rotation exact(order.order);
     std::vector<accuracy::Problem> problems =
         accuracy::problems<T>(order.order, options.rotations, kThinning, options.seed);
@@ -156,6 +198,16 @@ std::string rounded_up(double bound) {
     return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
 }
 
+void raise(std::string& bound, double least) {
+    if (std::stod(bound) < least) bound = rounded_up(least);
+}
+
+void raise_to_fused(Bound& bound) {
+    raise(bound.float_apart, std::stod(bound.float_text));
+    raise(bound.double_apart, std::stod(bound.double_text));
+    raise(bound.shader, std::stod(bound.float_apart));
+}
+
 /// The kernels to measure, with `prepare`, which `apply` needs.
 std::vector<graph::Kernel> chosen_kernels(std::vector<graph::Kernel> kernels, const Options& options) {
     if (options.kernels.empty()) return kernels;
@@ -166,138 +218,159 @@ std::vector<graph::Kernel> chosen_kernels(std::vector<graph::Kernel> kernels, co
     return kernels;
 }
 
-/// Raises the bounds of an order's kernels to what random turns need.
-void raise_by_turns(nlohmann::ordered_json& entries, const OrderKernels& order,
+/// Raises a bound to what random turns need.
+void raise_by_turns(std::vector<MeasuredBound>& entries, const OrderKernels& order,
                     const std::vector<graph::Kernel>& all, const Options& options) {
     std::map<std::string, double> excess;
-    for (const auto& entry : entries)
-        excess[entry.at("kernel")] = std::stod(entry.at("excess").get<std::string>());
+    for (const MeasuredBound& entry : entries)
+        excess[entry.kernels.front()] = std::stod(entry.bound.excess_text);
     const auto worst = worst_of_turns(order, all, excess, options);
     constexpr double kUnits = 0x1p-53 / 0x1p-24;
-    for (auto& entry : entries) {
-        if (!worst.contains(entry.at("kernel"))) continue;
-        const double bound = kMargin * worst.at(entry.at("kernel"));
-        const auto raise = [&](const char* type, double least) {
-            if (std::stod(entry.at(type).get<std::string>()) < least) entry[type] = rounded_up(least);
-        };
-        raise("float", bound);
-        raise("double", bound * kUnits);
+    for (MeasuredBound& entry : entries) {
+        if (!worst.contains(entry.kernels.front())) continue;
+        const double bound = kMargin * worst.at(entry.kernels.front());
+        raise(entry.bound.float_text, bound);
+        raise(entry.bound.double_text, bound * kUnits);
+        raise_to_fused(entry.bound);
     }
 }
 
-nlohmann::ordered_json entry_of(const std::string& kernel, int order, const std::string& table,
-                                const emit::Bound& bound) {
-    return {{"kernel", kernel},
-            {"order", order},
-            {"table", table},
+nlohmann::ordered_json entry_of(const MeasuredBound& measured) {
+    const Bound& bound = measured.bound;
+    return {{"order", measured.order},
+            {"body", measured.body},
+            {"kernels", measured.kernels},
             {"float", bound.float_text},
             {"double", bound.double_text},
+            {"float_apart", bound.float_apart},
+            {"double_apart", bound.double_apart},
+            {"shader", bound.shader},
             {"excess", bound.excess_text}};
 }
 
-nlohmann::ordered_json measure_order(int n, const Options& options) {
-    OrderKernels order = build_order_kernels(n, {});
-    const std::vector<graph::Kernel> all = order.kernels;
-    order.kernels = chosen_kernels(std::move(order.kernels), options);
+/// Each kernel's body once, by the first that has it.
+std::vector<MeasuredBound> bodies_of(const OrderKernels& order) {
+    std::vector<MeasuredBound> bodies;
+    for (const graph::Kernel& kernel : order.kernels) {
+        if (!kernel.has_bound) continue;
+        const std::string body = body_hash(kernel, order.kernels);
+        const auto known = std::ranges::find(bodies, body, &MeasuredBound::body);
+        if (known == bodies.end())
+            bodies.push_back({order.order, body, {kernel.full_name()}, {}});
+        else
+            known->kernels.push_back(kernel.full_name());
+    }
+    return bodies;
+}
+
+std::vector<MeasuredBound> measure_order(const OrderKernels& whole, const Options& options) {
+    OrderKernels order = whole;
+    order.kernels = chosen_kernels(whole.kernels, options);
     const auto excess = measure_excess(order, options);
     const auto single = measure_bounds<float>(order, excess, options);
     const auto twice = measure_bounds<double>(order, excess, options);
-    nlohmann::ordered_json entries = nlohmann::ordered_json::array();
-    for (const graph::Kernel& kernel : order.kernels) {
-        if (!kernel.has_bound) continue;
-        const std::string table =
-            kernel.needs_lobes ? order.tables.rotate_zhf->table.short_hash() : std::string{};
-        const std::string name = kernel.full_name();
-        entries.push_back(entry_of(name, n, table,
-                                   {rounded_up(single.at(name)), rounded_up(twice.at(name)),
-                                    fmt::format("{:.2f}", excess.at(name))}));
+    const auto allowed = [&](const std::string& name) {
+        double most = std::max(single.at(name), single.at(name + kApart));
+        for (const char* base : {", fused", ", apart"})
+            if (single.contains(name + kAllowed + base))
+                most = std::max(most, single.at(name + kAllowed + base));
+        return most;
+    };
+    std::vector<MeasuredBound> entries = bodies_of(order);
+    for (MeasuredBound& entry : entries) {
+        const std::string& name = entry.kernels.front();
+        entry.bound = {.float_text = rounded_up(single.at(name)),
+                       .double_text = rounded_up(twice.at(name)),
+                       .float_apart = rounded_up(single.at(name + kApart)),
+                       .double_apart = rounded_up(twice.at(name + kApart)),
+                       .shader = rounded_up(allowed(name)),
+                       .excess_text = fmt::format("{:.2f}", excess.at(name))};
+        raise_to_fused(entry.bound);
     }
-    raise_by_turns(entries, order, all, options);
+    raise_by_turns(entries, order, whole.kernels, options);
     return entries;
-}
-
-/// What the file says of an order, raised.
-nlohmann::ordered_json raised_order(int n, nlohmann::ordered_json entries, const Options& options) {
-    OrderKernels order = build_order_kernels(n, {});
-    const std::vector<graph::Kernel> all = order.kernels;
-    order.kernels = chosen_kernels(std::move(order.kernels), options);
-    raise_by_turns(entries, order, all, options);
-    return entries;
-}
-
-/// What the file says, if there is one, but for orders of which every kernel is measured anew.
-std::map<int, nlohmann::ordered_json> kept_bounds(const Options& options, const std::vector<int>& orders) {
-    std::map<int, nlohmann::ordered_json> kept;
-    if (!std::filesystem::exists(options.out)) return kept;
-    for (const MeasuredBound& bound : read_bounds(options.out)) {
-        const bool is_measured = std::ranges::find(orders, bound.order) != orders.end();
-        if (!is_measured || !options.kernels.empty() || options.only_turns)
-            kept[bound.order].push_back(entry_of(bound.kernel, bound.order, bound.table, bound.bound));
-    }
-    return kept;
-}
-
-/// Puts an entry in the place of the kernel's old one, or at the end.
-void put(nlohmann::ordered_json& entries, const nlohmann::ordered_json& entry) {
-    const auto old = std::ranges::find_if(
-        entries, [&](const auto& some) { return some.at("kernel") == entry.at("kernel"); });
-    if (old == entries.end())
-        entries.push_back(entry);
-    else
-        *old = entry;
 }
 
 /// Few rotations are tried at high orders, and rare errors are missed: from order 11 on no bound of a kernel
 /// without a lobe table is below that of the order before.
-void raise_to_lower_orders(std::map<int, nlohmann::ordered_json>& measured) {
+void raise_to_lower_orders(std::map<int, std::vector<MeasuredBound>>& measured) {
     constexpr int kFirst = 11;
     for (auto& [n, entries] : measured) {
         if (n < kFirst || !measured.contains(n - 1)) continue;
-        for (auto& entry : entries) {
-            for (const auto& lower : measured.at(n - 1)) {
-                if (lower.at("kernel") != entry.at("kernel") || entry.at("table") != "") continue;
-                for (const char* type : {"float", "double"})
-                    if (std::stod(lower.at(type).get<std::string>()) >
-                        std::stod(entry.at(type).get<std::string>()))
-                        entry[type] = lower.at(type);
+        for (MeasuredBound& entry : entries) {
+            for (const MeasuredBound& lower : measured.at(n - 1)) {
+                const std::string& name = entry.kernels.front();
+                if (lower.kernels.front() != name || name.ends_with("rotate_zhf")) continue;
+                raise(entry.bound.float_text, std::stod(lower.bound.float_text));
+                raise(entry.bound.double_text, std::stod(lower.bound.double_text));
+                raise_to_fused(entry.bound);
             }
         }
     }
 }
 
+/// An order's entries of the file that still are of one of its bodies, and whose kernels are not measured
+/// anew.
+std::vector<MeasuredBound> kept_of(const OrderKernels& order, const std::vector<MeasuredBound>& known) {
+    std::vector<MeasuredBound> kept;
+    for (const MeasuredBound& body : bodies_of(order)) {
+        const auto entry = std::ranges::find_if(known, [&](const MeasuredBound& some) {
+            return some.order == order.order && some.body == body.body;
+        });
+        if (entry != known.end()) kept.push_back({body.order, body.body, body.kernels, entry->bound});
+    }
+    return kept;
+}
+
+/// Puts new entries in the place of those of the same body.
+std::vector<MeasuredBound> merged(const OrderKernels& order, const std::vector<MeasuredBound>& kept,
+                                  const std::vector<MeasuredBound>& measured) {
+    std::vector<MeasuredBound> all = measured;
+    all.insert(all.end(), kept.begin(), kept.end());
+    return kept_of(order, all);
+}
+
+/// The options of an order: what of it is missing where only that is wanted.
+Options options_of(const OrderKernels& order, const std::vector<MeasuredBound>& kept, Options options) {
+    const int n = order.order;
+    // As many rotations as cost about the same at every order, if not told otherwise.
+    if (options.rotations == 0) options.rotations = n <= 2 ? 10000 : n <= 6 ? 500 : n <= 10 ? 150 : 40;
+    if (!options.only_missing) return options;
+    for (const MeasuredBound& body : bodies_of(order))
+        if (std::ranges::find(kept, body.body, &MeasuredBound::body) == kept.end())
+            options.kernels.push_back(body.kernels.front());
+    return options;
+}
+
 void run(const Options& options) {
     check_is_writable("--out", options.out);
     std::vector<int> orders = options.orders;
-    std::map<int, nlohmann::ordered_json> measured;
     if (orders.empty())
         for (int n = kLargestOrder; n >= kSmallestOrder; --n) orders.push_back(n);
-    if (!options.orders.empty() || !options.kernels.empty() || options.only_turns)
-        measured = kept_bounds(options, orders);
-    const auto known = measured;  // read by the threads that measure
-    for (const int n : orders)
-        if (options.only_turns && !known.contains(n))
-            throw std::runtime_error(fmt::format(
-                "{}: found no bounds of order {}, wanted what --only-turns raises; measure it first, "
-                "without that option",
-                options.out, n));
+    std::vector<MeasuredBound> known;
+    if (std::filesystem::exists(options.out)) known = read_bounds(options.out);
+    std::map<int, std::vector<MeasuredBound>> measured;
+    for (const MeasuredBound& bound : known) measured[bound.order].push_back(bound);
     std::mutex mutex;
     tbb::parallel_for_each(orders, [&](int n) {
-        Options of_order = options;
-        // As many rotations as cost about the same at every order, if not told otherwise.
-        if (options.rotations == 0) of_order.rotations = n <= 2 ? 10000 : n <= 6 ? 500 : n <= 10 ? 150 : 40;
-        const nlohmann::ordered_json entries =
-            options.only_turns ? raised_order(n, known.at(n), of_order) : measure_order(n, of_order);
+        const OrderKernels order = build_order_kernels(n, {});
+        std::vector<MeasuredBound> entries = kept_of(order, known);
+        const Options of_order = options_of(order, entries, options);
+        if (options.only_turns)
+            raise_by_turns(entries, order, order.kernels, of_order);
+        else if (!options.only_missing || !of_order.kernels.empty())
+            entries = merged(order, entries, measure_order(order, of_order));
         const std::lock_guard lock(mutex);
-        for (const auto& entry : entries) put(measured[n], entry);
-        fmt::print("{}\n", entries.dump());
+        for (const MeasuredBound& entry : entries) fmt::print("{}\n", entry_of(entry).dump());
         std::fflush(stdout);
+        measured[n] = std::move(entries);
     });
     raise_to_lower_orders(measured);
     nlohmann::ordered_json bounds = nlohmann::ordered_json::array();
     for (const auto& [n, entries] : measured)
-        for (const auto& entry : entries) bounds.push_back(entry);
+        for (const MeasuredBound& entry : entries) bounds.push_back(entry_of(entry));
     const std::string command = fmt::format(
-        "zonal-measure-bounds{} --seed {} --out generator/tables/bounds.json",
+        "zonal-measure-bounds{} --seed {} --out generator/bounds/bounds.json",
         options.rotations == 0 ? "" : fmt::format(" --rotations {}", options.rotations), options.seed);
     write_file_atomically(
         options.out,
@@ -322,6 +395,8 @@ int main(int argc, char** argv) {
         "--only-turns", options.only_turns,
         "many random turns alone: raises what the file says where they need it, for kernels that did "
         "not change");
+    app.add_flag("--missing", options.only_missing,
+                 "kernels alone of whose bodies the file that --out names has no bound");
     program::add_number(app, "--seed", options.seed, {}, "of all random rotations and signals")
         ->capture_default_str();
     app.add_option("--out", options.out, "the file to write")->check(program::not_empty())->required();

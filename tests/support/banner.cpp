@@ -35,11 +35,14 @@ std::smatch find(int order, const std::string& kernel, const std::string& text, 
 
 Bound bound(int order, const std::string& kernel) {
     const std::string text = banner_text(order, kernel);
-    const std::smatch match = find(order, kernel, text,
-                                   R"(bound   : ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\), with fused )"
-                                   R"(instructions, for det R = \+1( or -1)?;\s+//\s+relative to \|f\|; )"
-                                   R"(([0-9.]+) )");
-    return {std::stod(match[1]), std::stod(match[2]), std::stod(match[4]), match[3].matched};
+    const std::smatch match =
+        find(order, kernel, text,
+             R"(bound   : ([0-9.e+-]+) \(float\), ([0-9.e+-]+) \(double\), with fused )"
+             R"(instructions, for det R = \+1( or -1)?;\s+//\s+([0-9.e+-]+), ([0-9.e+-]+) )"
+             R"(without them; [^|]*relative to \|f\|; )"
+             R"(([0-9.]+) )");
+    return {std::stod(match[1]), std::stod(match[2]), std::stod(match[4]),
+            std::stod(match[5]), std::stod(match[6]), match[3].matched};
 }
 
 bool comment_takes_mirrors(int order, const std::string& kernel) {

@@ -8,6 +8,7 @@ namespace zonal::banner {
 struct Bound {
     double float_bound = 0;
     double double_bound = 0;
+    double float_apart = 0, double_apart = 0;  ///< without fused instructions
     double excess = 0;           ///< for each unit of ‖R Rᵀ - I‖_F
     bool takes_mirrors = false;  ///< holds for det R = -1 too
 };

@@ -50,6 +50,24 @@ TEST(Numbers, limits_are_kept_and_said_in_few_words) {
     EXPECT_EQ(Limits<int>{}.text(), "a whole number");
 }
 
+TEST(Numbers, several_follow_one_option_or_each_its_own) {
+    const auto read = [](std::vector<const char*> words) {
+        CLI::App app;
+        std::vector<int> orders;
+        bool is_flagged = false;
+        add_numbers(app, "--orders", orders, from_to(3, 20), "some orders");
+        app.add_flag("--flag", is_flagged);
+        words.insert(words.begin(), "program");
+        app.parse(static_cast<int>(words.size()), words.data());
+        EXPECT_TRUE(is_flagged);
+        return orders;
+    };
+    EXPECT_THAT(read({"--orders", "3", "4", "20", "--flag"}), testing::ElementsAre(3, 4, 20));
+    EXPECT_THAT(read({"--flag", "--orders", "5"}), testing::ElementsAre(5));
+    EXPECT_THAT(read({"--orders", "3", "--flag", "--orders", "4"}), testing::ElementsAre(3, 4));
+    EXPECT_THROW(read({"--flag", "--orders", "3", "2"}), CLI::ValidationError);
+}
+
 TEST(Shown, what_would_act_on_a_terminal_is_written_out) {
     EXPECT_EQ(shown("plain … text"), "plain … text");
     EXPECT_EQ(shown("a\nb\x1b[31m\x7f"), "a\\x0ab\\x1b[31m\\x7f");
