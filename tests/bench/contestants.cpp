@@ -6,6 +6,7 @@
 #include "bench/baselines/euler_zyz.hpp"
 #include "bench/baselines/ivanic_ruedenberg.hpp"
 #include "bench/baselines/zxzxz.hpp"
+#include "bench/baselines/zyz_without_angles.hpp"
 #include "zonal/orders.hpp"
 
 namespace zonal::bench {
@@ -34,6 +35,14 @@ SingleCall<T> baseline(const char* name, int order) {
             },
             [=](const T* R, const T* f, T* out) { kernel->rotate(R, f, out); }};
 }
+
+template <int N>
+struct Zyz {
+    template <class T>
+    static void rotate(const T* R, const T* f, T* out) {
+        baselines::zyz_without_angles<N>(R, f, out);
+    }
+};
 
 // Kernels of an order that take part, for whatever ZONAL_BENCH_KERNEL is at the time.
 #define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
@@ -66,6 +75,11 @@ std::vector<SingleCall<T>> single_calls(int order) {
 #undef ZONAL_BENCH_POLYNOMIAL
 #undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
+#define ZONAL_BENCH_ZYZ(N)                       \
+    if constexpr (N <= baselines::kLastZyzOrder) \
+        if (order == N) calls.push_back(single_call<Zyz<N>, N, T>(kZyz));
+    ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_ZYZ)
+#undef ZONAL_BENCH_ZYZ
     calls.push_back(baseline<T, baselines::Zxzxz<T>>(kZxzxz, order));
     calls.push_back(baseline<T, baselines::EulerZyz<T>>("z-y-z with angles", order));
     calls.push_back(baseline<T, baselines::IvanicRuedenberg<T>>("Ivanic-Ruedenberg", order));
