@@ -1,5 +1,7 @@
 #include "contestants.hpp"
 
+#include <benchmark/benchmark.h>
+
 #include <memory>
 
 #include "bench/baselines/dense_product.hpp"
@@ -12,13 +14,16 @@
 namespace zonal::bench {
 namespace {
 
-/// A single call in a loop; Kernel::rotate<T>(R, f, out) is inlined as a user's would be.
+/// Single calls in a loop; Kernel::rotate<T>(R, f, out) is inlined as a user's would be. Clobbered memory
+/// keeps clang++ from making packs of them.
 template <class Kernel, int N, class T>
 SingleCall<T> single_call(const char* name) {
     return {name,
             [](const Arrays<T>& a) {
-                for (std::size_t k = 0; k < a.count; ++k)
+                for (std::size_t k = 0; k < a.count; ++k) {
                     Kernel::rotate(a.rotations + 9 * k, a.in + N * N * k, a.out + N * N * k);
+                    benchmark::ClobberMemory();
+                }
             },
             [](const T* R, const T* f, T* out) { Kernel::rotate(R, f, out); }};
 }
