@@ -4,12 +4,15 @@
 // the rounds is reported: what the machine does to all of them at once cancels.
 
 #include <benchmark/benchmark.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -50,6 +53,7 @@ struct Options {
     std::size_t memory_mib = 512;
     std::size_t streamed_mib = batch::kStreamedBytes >> 20;
     std::string json;
+    std::string command;  ///< as it was called, without folders of the program
 };
 
 /// One line of the report.
@@ -333,8 +337,25 @@ void measure(int order, const Workload& workload, const std::string& place, cons
     }
 }
 
+/// The processor as Linux names it, with family and model: names of virtual machines tell little.
+std::string processor() {
+    std::map<std::string, std::string> facts;
+    std::ifstream stream("/proc/cpuinfo");
+    for (std::string line; std::getline(stream, line) && !line.empty();) {
+        const std::size_t colon = line.find(':');
+        if (colon + 2 < line.size()) facts[line.substr(0, line.find('\t'))] = line.substr(colon + 2);
+    }
+    if (!facts.contains("model name")) return "unknown";
+    return fmt::format("{}, family {}, model {}", facts["model name"], facts["cpu family"], facts["model"]);
+}
+
 void write_json(const std::string& path, const std::vector<Result>& results, const Options& options) {
     nlohmann::json json;
+    json["machine"] = processor();
+    json["compiler"] = ZONAL_BENCH_COMPILER;
+    json["flags"] = ZONAL_BENCH_FLAGS;
+    json["date"] = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+    json["command"] = options.command;
     json["rounds"] = options.rounds;
     json["l2_kib"] = options.l2_kib;
     json["memory_mib"] = options.memory_mib;
@@ -420,6 +441,8 @@ int main(int argc, char** argv) {
                "batches larger than this are written past the caches")
         ->capture_default_str();
     app.add_option("--json", options.json, "also write the results to this file");
+    options.command = std::filesystem::path(argv[0]).filename().string();
+    for (int k = 1; k < argc; ++k) options.command += std::string(" ") + argv[k];
     return zonal::program::run(app, argc, argv, [&] {
         // Every call of the library runs the group registered at that time, in random order.
         std::vector<std::string> arguments{"zonal-bench", "--benchmark_enable_random_interleaving=true"};
