@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs the JavaScript of generated/js in node. In headless Chromium: compiles generated/glsl as GLSL ES 3.00, and
 # generated/wgsl; runs the WGSL of orders 3, 4 and 6; compares every turn with the oracle; renders a ball under a turning
-# light by orders 3 and 4 in WebGL2, and compares every pixel with C++ and with the oracle. Installs Chromium, Node.js
-# and npm where missing.
+# light by orders 3 and 4 in WebGL2, and compares every pixel with C++ and with the oracle. Draws tests/bench/speed_error.svg
+# again and compares. Installs Chromium, Node.js and npm where missing.
 #   bash cmake/check_web.sh [BUILD_FOLDER, default build/release]
 # Writes build/check_web/: lit_sphere.png (orders downwards, turns to the right), scene.json, values.f32; turns.json and
 # turned.f32 of the WGSL, js_turns.json and js_turned.f64 of JavaScript.
@@ -31,6 +31,12 @@ if ! (cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1; then
   echo "npm ci failed: playwright-core could not be installed from the npm registry" >&2
   exit 1
 fi
+
+node "$root/tests/bench/speed_error.mjs" "$root/tests/bench/speed_error.json" "$work/speed_error.svg"
+cmp "$work/speed_error.svg" "$root/tests/bench/speed_error.svg" || {
+  echo "tests/bench/speed_error.svg is not what its numbers give; draw it: node tests/bench/speed_error.mjs" >&2
+  exit 1
+}
 
 turns=$build/bin/zonal-language-turns
 "$turns" js write "$work/js_turns.json"

@@ -4,12 +4,15 @@
 // the rounds is reported: what the machine does to all of them at once cancels.
 
 #include <benchmark/benchmark.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -50,6 +53,7 @@ struct Options {
     std::size_t memory_mib = 512;
     std::size_t streamed_mib = batch::kStreamedBytes >> 20;
     std::string json;
+    std::string command;  ///< as it was called, without folders of the program
 };
 
 /// One line of the report.
@@ -59,6 +63,7 @@ struct Result {
     double nanoseconds = 0;    ///< a vector, all its channels
     double to_memcpy = 0;      ///< of (bytes read + bytes written) / 2
     double to_zxzxz = 0;       ///< of single calls, else 0
+    double to_zyz = 0;         ///< of single calls up to order 10, else 0
     double peak_fraction = 0;  ///< 0 where it has no meaning
     double error = 0;          ///< largest, relative to the norm of the vector
 };
@@ -299,11 +304,12 @@ void measure(int order, const Workload& workload, const std::string& place, cons
     for (const Contestant& contestant : contestants) {
         if (contestant.name == "memcpy" || contestant.name == "peak") continue;
         const std::vector<double>& seconds = times.at(contestant.name);
-        std::vector<double> nanoseconds, to_memcpy, to_zxzxz, fraction;
+        std::vector<double> nanoseconds, to_memcpy, to_zxzxz, to_zyz, fraction;
         for (std::size_t round = 0; round < seconds.size(); ++round) {
             nanoseconds.push_back(1e9 * seconds[round] / contestant.vectors);
             to_memcpy.push_back(seconds[round] / times.at("memcpy")[round]);
             if (workload.is_single()) to_zxzxz.push_back(seconds[round] / times.at(kZxzxz)[round]);
+            if (times.contains(kZyz)) to_zyz.push_back(seconds[round] / times.at(kZyz)[round]);
             if (contestant.peak_instructions > 0)
                 fraction.push_back(contestant.peak_instructions * times.at("peak")[round] /
                                    static_cast<double>(kPeakRounds * kPeakChains) /
@@ -318,19 +324,38 @@ void measure(int order, const Workload& workload, const std::string& place, cons
                            .nanoseconds = median(nanoseconds),
                            .to_memcpy = median(to_memcpy),
                            .to_zxzxz = to_zxzxz.empty() ? 0 : median(to_zxzxz),
+                           .to_zyz = to_zyz.empty() ? 0 : median(to_zyz),
                            .peak_fraction = fraction.empty() ? 0 : median(fraction),
                            .error = contestant.error});
         const Result& r = results.back();
-        fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1e} |\n", r.workload,
+        const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.3f}", value) : ""; };
+        fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {} | {:.1e} |\n", r.workload,
                    r.place, r.order, r.contestant, r.type, r.target, r.nanoseconds, r.to_memcpy,
-                   r.to_zxzxz > 0 ? fmt::format("{:.3f}", r.to_zxzxz) : "",
+                   ratio(r.to_zxzxz), ratio(r.to_zyz),
                    r.peak_fraction > 0 ? fmt::format("{:.0f} %", 100 * r.peak_fraction) : "", r.error);
         std::fflush(stdout);
     }
 }
 
+/// The processor as Linux names it, with family and model: names of virtual machines tell little.
+std::string processor() {
+    std::map<std::string, std::string> facts;
+    std::ifstream stream("/proc/cpuinfo");
+    for (std::string line; std::getline(stream, line) && !line.empty();) {
+        const std::size_t colon = line.find(':');
+        if (colon + 2 < line.size()) facts[line.substr(0, line.find('\t'))] = line.substr(colon + 2);
+    }
+    if (!facts.contains("model name")) return "unknown";
+    return fmt::format("{}, family {}, model {}", facts["model name"], facts["cpu family"], facts["model"]);
+}
+
 void write_json(const std::string& path, const std::vector<Result>& results, const Options& options) {
     nlohmann::json json;
+    json["machine"] = processor();
+    json["compiler"] = ZONAL_BENCH_COMPILER;
+    json["flags"] = ZONAL_BENCH_FLAGS;
+    json["date"] = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+    json["command"] = options.command;
     json["rounds"] = options.rounds;
     json["l2_kib"] = options.l2_kib;
     json["memory_mib"] = options.memory_mib;
@@ -340,6 +365,7 @@ void write_json(const std::string& path, const std::vector<Result>& results, con
                             {"contestant", r.contestant}, {"type", r.type},           {"target", r.target},
                             {"ns", r.nanoseconds},        {"to_memcpy", r.to_memcpy}, {"error", r.error}};
         if (r.to_zxzxz > 0) line["to_zxzxz"] = r.to_zxzxz;
+        if (r.to_zyz > 0) line["to_zyz"] = r.to_zyz;
         if (r.peak_fraction > 0) line["peak_fraction"] = r.peak_fraction;
         json["results"].push_back(std::move(line));
     }
@@ -356,12 +382,14 @@ void run(const Options& options) {
     fmt::print(
         "Time of one vector (all channels) on one core; ratio to memcpy of (bytes read + written) / 2, "
         "rotations\n"
-        "included; of single calls, ratio to the z-x-z-x-z product with angles (sine and cosine included); "
-        "share of the measured peak of multiply-adds on the same packs that the kernel's own\n"
+        "included; of single calls, ratios to the z-x-z-x-z product with angles (sine and cosine included) "
+        "and to\nz-y-z without angles; share of the measured peak of multiply-adds on the same packs that "
+        "the kernel's own\n"
         "instructions make; largest error over {} random rotations. Medians of {} interleaved rounds.\n"
         "L2: {} KiB in all; memory: {} MiB.\n\n"
-        "| workload | from | N | contestant | type | packs | ns | / memcpy | / zxzxz | of peak | error |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| workload | from | N | contestant | type | packs | ns | / memcpy | / zxzxz | / z-y-z | of peak | "
+        "error |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         kErrorRotations, options.rounds, options.l2_kib, options.memory_mib);
     std::vector<double> memory;
     std::vector<Result> results;
@@ -413,6 +441,8 @@ int main(int argc, char** argv) {
                "batches larger than this are written past the caches")
         ->capture_default_str();
     app.add_option("--json", options.json, "also write the results to this file");
+    options.command = std::filesystem::path(argv[0]).filename().string();
+    for (int k = 1; k < argc; ++k) options.command += std::string(" ") + argv[k];
     return zonal::program::run(app, argc, argv, [&] {
         // Every call of the library runs the group registered at that time, in random order.
         std::vector<std::string> arguments{"zonal-bench", "--benchmark_enable_random_interleaving=true"};

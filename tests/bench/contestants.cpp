@@ -1,23 +1,29 @@
 #include "contestants.hpp"
 
+#include <benchmark/benchmark.h>
+
 #include <memory>
 
 #include "bench/baselines/dense_product.hpp"
 #include "bench/baselines/euler_zyz.hpp"
 #include "bench/baselines/ivanic_ruedenberg.hpp"
 #include "bench/baselines/zxzxz.hpp"
+#include "bench/baselines/zyz_without_angles.hpp"
 #include "zonal/orders.hpp"
 
 namespace zonal::bench {
 namespace {
 
-/// A single call in a loop; Kernel::rotate<T>(R, f, out) is inlined as a user's would be.
+/// Single calls in a loop; Kernel::rotate<T>(R, f, out) is inlined as a user's would be. Clobbered memory
+/// keeps clang++ from making packs of them.
 template <class Kernel, int N, class T>
 SingleCall<T> single_call(const char* name) {
     return {name,
             [](const Arrays<T>& a) {
-                for (std::size_t k = 0; k < a.count; ++k)
+                for (std::size_t k = 0; k < a.count; ++k) {
                     Kernel::rotate(a.rotations + 9 * k, a.in + N * N * k, a.out + N * N * k);
+                    benchmark::ClobberMemory();
+                }
             },
             [](const T* R, const T* f, T* out) { Kernel::rotate(R, f, out); }};
 }
@@ -34,6 +40,14 @@ SingleCall<T> baseline(const char* name, int order) {
             },
             [=](const T* R, const T* f, T* out) { kernel->rotate(R, f, out); }};
 }
+
+template <int N>
+struct Zyz {
+    template <class T>
+    static void rotate(const T* R, const T* f, T* out) {
+        baselines::zyz_without_angles<N>(R, f, out);
+    }
+};
 
 // Kernels of an order that take part, for whatever ZONAL_BENCH_KERNEL is at the time.
 #define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
@@ -66,6 +80,11 @@ std::vector<SingleCall<T>> single_calls(int order) {
 #undef ZONAL_BENCH_TENSOR
 #undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
+#define ZONAL_BENCH_ZYZ(N)                       \
+    if constexpr (N <= baselines::kLastZyzOrder) \
+        if (order == N) calls.push_back(single_call<Zyz<N>, N, T>(kZyz));
+    ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_ZYZ)
+#undef ZONAL_BENCH_ZYZ
     calls.push_back(baseline<T, baselines::Zxzxz<T>>(kZxzxz, order));
     calls.push_back(baseline<T, baselines::EulerZyz<T>>("z-y-z with angles", order));
     calls.push_back(baseline<T, baselines::IvanicRuedenberg<T>>("Ivanic-Ruedenberg", order));

@@ -15,6 +15,7 @@
 #include "bench/baselines/euler_zyz.hpp"
 #include "bench/baselines/ivanic_ruedenberg.hpp"
 #include "bench/baselines/zxzxz.hpp"
+#include "bench/baselines/zyz_without_angles.hpp"
 #include "support/hard_cases.hpp"
 #include "support/oracle.hpp"
 
@@ -36,6 +37,15 @@ double tolerance(int order) {
     return 20.0 * order * static_cast<double>(std::numeric_limits<T>::epsilon());
 }
 
+/// The same of z-y-z without angles. A column's length is wrong by eps, sine and cosine so by 2 eps; the
+/// recurrence of multiples enlarges that m^2 times and has roundings of 3 u that grow alike, m^2 / 2
+/// times: 2.75 (N - 1)^2 eps an angle.
+template <class T>
+double zyz_tolerance(int order) {
+    const double epsilon = static_cast<double>(std::numeric_limits<T>::epsilon());
+    return tolerance<T>(order) + 9.0 * (order - 1) * (order - 1) * epsilon;
+}
+
 template <class T>
 using RotateFunction = std::function<void(const T* R, const T* f, T* out)>;
 
@@ -44,26 +54,42 @@ struct Baseline {
     std::string name;
     bool takes_mirrors;
     bool works_in_place;
+    bool bears_noise_at_poles;
+    double tolerance;
     RotateFunction<T> rotate;
 };
+
+/// zyz_without_angles of an order that is known when the test runs.
+template <class T, int N = 2>
+RotateFunction<T> zyz_of(int order) {
+    if (order == N) return baselines::zyz_without_angles<N, T>;
+    if constexpr (N < baselines::kLastZyzOrder) return zyz_of<T, N + 1>(order);
+    return nullptr;
+}
 
 template <class T>
 std::vector<Baseline<T>> baselines_of(int order) {
     const auto recursion = std::make_shared<baselines::IvanicRuedenberg<T>>(order);
     const auto euler = std::make_shared<baselines::EulerZyz<T>>(order);
     const auto zxzxz = std::make_shared<baselines::Zxzxz<T>>(order);
-    return {
-        {"Ivanic-Ruedenberg", true, true,
+    const double usual = tolerance<T>(order);
+    std::vector<Baseline<T>> all{
+        {"Ivanic-Ruedenberg", true, true, true, usual,
          [=](const T* R, const T* f, T* out) { recursion->rotate(R, f, out); }},
-        {"dense product", true, false,
+        {"dense product", true, false, true, usual,
          [=](const T* R, const T* f, T* out) {
              std::vector<T> dense(baselines::block_offset(order));
              recursion->blocks(R, dense.data());
              baselines::apply_blocks(order, dense.data(), f, out);
          }},
-        {"z-y-z Euler", false, true, [=](const T* R, const T* f, T* out) { euler->rotate(R, f, out); }},
-        {"zxzxz", false, true, [=](const T* R, const T* f, T* out) { zxzxz->rotate(R, f, out); }},
+        {"z-y-z Euler", false, true, true, usual,
+         [=](const T* R, const T* f, T* out) { euler->rotate(R, f, out); }},
+        {"zxzxz", false, true, true, usual,
+         [=](const T* R, const T* f, T* out) { zxzxz->rotate(R, f, out); }},
     };
+    if (const auto rotate = zyz_of<T>(order))
+        all.push_back({"z-y-z without angles", false, true, false, zyz_tolerance<T>(order), rotate});
+    return all;
 }
 
 /// ||out - wanted|| / ||wanted||: a rotation keeps the norm.
@@ -119,9 +145,11 @@ TYPED_TEST(runtime_baselines, every_order_matches_the_pointwise_oracle) {
             const double excused = (order - 1) * static_cast<double>(oracle::orthonormality_error(given)) / 2;
             for (const Baseline<T>& baseline : all) {
                 if (!baseline.takes_mirrors && determinant(c.rotation) < 0) continue;
+                if (!baseline.bears_noise_at_poles && c.name.starts_with("product of rounded matrices"))
+                    continue;
                 std::vector<T> out(f.size());
                 baseline.rotate(R.data(), f.data(), out.data());
-                EXPECT_LE(relative_error<T>(out, wanted), tolerance<T>(order) + excused)
+                EXPECT_LE(relative_error<T>(out, wanted), baseline.tolerance + excused)
                     << baseline.name << ", order " << order << ", " << c.name;
             }
         }
