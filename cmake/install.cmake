@@ -19,6 +19,7 @@ if(ZONAL_BUILD_GENERATOR)
   install(TARGETS zonal-gen EXPORT zonal-generator)
   install(DIRECTORY generator/tables/ DESTINATION "${CMAKE_INSTALL_DATADIR}/zonal/tables"
     FILES_MATCHING PATTERN "*.json")
+  install(FILES generator/bounds/bounds.json DESTINATION "${CMAKE_INSTALL_DATADIR}/zonal/bounds")
   list(APPEND components generator)
 endif()
 foreach(component IN LISTS components)

@@ -47,7 +47,7 @@ if [ "$accept" = yes ]; then
   if ! cmp -s "$table" "$committed"; then # no code without the bound of its table
     cp "$table" "$committed"
     build build/release zonal-measure-bounds
-    build/release/bin/zonal-measure-bounds --orders "$order" --kernels rotate_zhf --out generator/tables/bounds.json
+    build/release/bin/zonal-measure-bounds --missing --orders "$order" --out generator/bounds/bounds.json
   fi
   "$gen" emit --order "$order" --language cpp --out generated/cpp
   echo "accepted. Next: list the order in cmake/orders.cmake"

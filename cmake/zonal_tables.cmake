@@ -8,6 +8,6 @@ function(zonal_tables_of variable order)
   file(GLOB tables CONFIGURE_DEPENDS
     "${ZONAL_TABLES_FOLDER}/shared/order${digits}.json" "${ZONAL_TABLES_FOLDER}/rotate_zhf/order${digits}.json"
     "${ZONAL_TABLES_FOLDER}/band/*.json" "${ZONAL_TABLES_FOLDER}/band_mirrored/*.json"
-    "${ZONAL_TABLES_FOLDER}/bounds.json")
+    "${ZONAL_TABLES_FOLDER}/../bounds/bounds.json")
   set(${variable} ${tables} PARENT_SCOPE)
 endfunction()

@@ -8,7 +8,7 @@ kernels::RotateChoice chosen_rotate(const OrderKernels& order, kernels::Processo
     std::map<std::string, kernels::ErrorBounds> bounds;
     for (const auto& [kernel, bound] : published_bounds(order)) {
         if (processor == kernels::Processor::gpu)
-            bounds[kernel] = {std::stod(bound.shader), 0};
+            bounds[kernel] = {std::stod(bound.float_apart), 0};
         else
             bounds[kernel] = {std::stod(bound.float_text), std::stod(bound.double_text)};
     }

@@ -29,9 +29,9 @@ std::string rounded_up(double bound) {
     return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
 }
 
-/// A derived bound that is a hundred times what was measured tells nobody anything: none then.
+/// A derived bound that is two hundred times what was measured tells nobody anything: none then.
 Bound with_derived(Bound bound, const graph::Kernel& kernel) {
-    constexpr double kFloat = 0x1p-24, kDouble = 0x1p-53, kMost = 100;
+    constexpr double kFloat = 0x1p-24, kDouble = 0x1p-53, kMost = 200;
     const std::optional<DerivedBound> derived = derived_bound(kernel);
     if (!derived || derived->apart * kFloat > kMost * std::stod(bound.float_text)) return bound;
     bound.float_derived = rounded_up(derived->fused * kFloat);

@@ -38,18 +38,22 @@ std::vector<std::string> bound_lines(const Unit& unit, const graph::Kernel& kern
             return {fmt::format("{} in double, for {};", bound.double_apart, domain),
                     fmt::format("{};", origin_text({bound.double_apart_derived})), last};
         case Arithmetic::shader:
-            return {fmt::format("{} in float, for {}, fused or not, with quotients and roots", bound.shader,
-                                domain),
-                    fmt::format("as inexact as GLSL and Vulkan allow; {};",
-                                origin_text({bound.float_apart_derived})),
-                    last};
+            if (bound.shader == bound.float_apart)
+                return {fmt::format("{} in float, fused or not, for {};", bound.shader, domain),
+                        fmt::format("{};", origin_text({bound.float_apart_derived})), last};
+            return {fmt::format("{} in float, fused or not, for {}, where quotients and roots",
+                                bound.float_apart, domain),
+                    fmt::format("round to the nearest, {} where they are off by all that GLSL and Vulkan",
+                                bound.shader),
+                    fmt::format("allow; measured x 1.5; {}", last)};
     }
     return {};
 }
 
 /// The operations of one vector, and of every further one of the same rotation.
-std::vector<std::string> cost_lines(const graph::Kernel& kernel) {
-    const graph::Cost cost = graph::count_operations(kernel);
+std::vector<std::string> cost_lines(const Unit& unit, const graph::Kernel& kernel) {
+    const bool has_loops = unit.arithmetic == Arithmetic::cpp && kernel.loops;
+    const graph::Cost cost = has_loops ? kernel.loops->cost : graph::count_operations(kernel);
     return {fmt::format("{};", counts_text(cost.total())),
             fmt::format("per extra vector {}", counts_text(cost.per_vector))};
 }
@@ -89,7 +93,7 @@ std::vector<std::string> banner_lines(const Unit& unit, const graph::Kernel& ker
     const auto tables = unit.tables.find(kernel.full_name());
     std::vector<std::string> lines = opening_lines(
         unit, command, tables == unit.tables.end() ? std::vector<std::string>{} : tables->second);
-    append_key(lines, "cost", cost_lines(kernel));
+    append_key(lines, "cost", cost_lines(unit, kernel));
     if (kernel.has_bound) append_key(lines, "bound", bound_lines(unit, kernel));
     append_key(lines, "source", kernel.sources);
     return lines;
@@ -135,7 +139,7 @@ std::vector<std::string> closing_lines(const Unit& unit, const graph::Kernel& ke
             lines.push_back(fmt::format("{}{}{}", k == 0 ? subject + ": " : "  ", parts[k],
                                         k + 1 == parts.size() ? "." : ""));
     };
-    sentence("Cost", cost_lines(kernel));
+    sentence("Cost", cost_lines(unit, kernel));
     if (kernel.has_bound) sentence("Error", bound_lines(unit, kernel));
     for (const std::string& source : kernel.sources) sentence("Source", {source});
     return lines;
@@ -166,7 +170,8 @@ std::string shader_comment(const Unit& unit, const graph::Kernel& kernel) {
         lines.push_back(fmt::format("  {} for each.", counts_text(cost.per_vector)));
         const auto bound = unit.bounds.find(for_channels(unit, kernel).full_name());
         if (bound != unit.bounds.end() && unit.arithmetic == Arithmetic::shader)
-            lines.push_back(fmt::format("  Their error: {}, else as above.", bound->second.shader));
+            lines.push_back(fmt::format("  Error: {} and {} in place of those above.",
+                                        bound->second.float_apart, bound->second.shader));
     }
     return comment("//", lines);
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "graph/cost.hpp"
 #include "graph/graph.hpp"
 
 namespace zonal::graph {
@@ -28,6 +30,14 @@ struct Store {
     int step = 0;
 };
 
+/// What C++ prints in place of straight lines, where those are too many.
+struct Loops {
+    std::string support;       ///< name of the header that the body calls
+    std::string support_text;  ///< what stands in it, in namespace kernel_support
+    std::string body;          ///< statements, indented by four
+    Cost cost;                 ///< of the loops
+};
+
 /// One function to emit: its graph, its arguments and what its comment says.
 struct Kernel {
     std::string name;
@@ -45,6 +55,7 @@ struct Kernel {
     /// The kernel of the same graph that a language with functions calls instead of repeating the body;
     /// empty: none.
     std::string forwards_to;
+    std::optional<Loops> loops;
     bool needs_lobes = false;  ///< built from a lobe table
     bool has_bound = false;    ///< an error bound is published for it
 

@@ -29,7 +29,6 @@ Value band_1(const Matrix3& rows, int i, int j) {
 /// x has at least a third in degree l, as much as a random product has: y_1^0 y_{l-1}^n up to |n| = 0.58 l,
 /// y_1^{±1} y_{l-1}^{n∓1} from 0.15 l on, for twice the products. A little later costs less: at order 20
 /// errors in float are a third of the published recursion's.
-constexpr int kInnerTenths = 7;
 static_assert(kInnerTenths >= 5, "outer columns have |n| >= 2: y_{l-1}^0 is normalised in another way");
 
 bool is_outer(int l, int n) { return 10 * std::abs(n) > kInnerTenths * l; }

@@ -41,17 +41,17 @@ SingleCall<T> baseline(const char* name, int order) {
             [=](const T* R, const T* f, T* out) { kernel->rotate(R, f, out); }};
 }
 
-template <int N>
+template <int N, baselines::SineOfBeta form>
 struct Zyz {
     template <class T>
     static void rotate(const T* R, const T* f, T* out) {
-        baselines::zyz_without_angles<N>(R, f, out);
+        baselines::zyz_without_angles<N, form>(R, f, out);
     }
 };
 
 // Kernels of an order that take part, for whatever ZONAL_BENCH_KERNEL is at the time.
 #define ZONAL_BENCH_EXACT(N) ZONAL_BENCH_KERNEL(N, rotate) ZONAL_BENCH_KERNEL(N, rotate_accurate)
-#define ZONAL_BENCH_TENSOR(N) ZONAL_BENCH_KERNEL(N, rotate_tensor)
+#define ZONAL_BENCH_TENSOR(N) ZONAL_BENCH_KERNEL(N, rotate_fewest) ZONAL_BENCH_KERNEL(N, rotate_tensor)
 #define ZONAL_BENCH_LOBES(N) ZONAL_BENCH_KERNEL(N, rotate_zhf)
 
 #define ZONAL_BENCH_KERNEL(N, kernel)                        \
@@ -80,9 +80,12 @@ std::vector<SingleCall<T>> single_calls(int order) {
 #undef ZONAL_BENCH_TENSOR
 #undef ZONAL_BENCH_EXACT
 #undef ZONAL_BENCH_KERNEL
-#define ZONAL_BENCH_ZYZ(N)                       \
-    if constexpr (N <= baselines::kLastZyzOrder) \
-        if (order == N) calls.push_back(single_call<Zyz<N>, N, T>(kZyz));
+    using enum baselines::SineOfBeta;
+#define ZONAL_BENCH_ZYZ(N)                                                                                \
+    if constexpr (N <= baselines::kLastZyzOrder) {                                                        \
+        if (order == N) calls.push_back(single_call<Zyz<N, root_of_cosine>, N, T>(kZyz));                 \
+        if (order == N) calls.push_back(single_call<Zyz<N, length_of_column>, N, T>("z-y-z, two roots")); \
+    }
     ZONAL_FOR_EACH_ORDER(ZONAL_BENCH_ZYZ)
 #undef ZONAL_BENCH_ZYZ
     calls.push_back(baseline<T, baselines::Zxzxz<T>>(kZxzxz, order));

@@ -26,7 +26,7 @@ struct SingleCall {
 
 /// Name of the one that others are compared with, as the paper's Figure 5 does.
 inline constexpr const char* kZxzxz = "zxzxz with angles";
-/// Name of the fastest of the others; orders above 10 lack it.
+/// Name of DirectXMath's arithmetic, the fastest in use; orders above 10 lack it.
 inline constexpr const char* kZyz = "z-y-z without angles";
 
 /// Whoever takes part in the table of single calls for this order: add baselines here (contestants.cpp).

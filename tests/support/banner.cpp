@@ -10,17 +10,18 @@ namespace zonal::banner {
 
 namespace {
 
-std::string text_of(int order, const std::string& kernel) {
+std::string text_of(int order, const std::string& kernel, const std::string& folder = ZONAL_GENERATED_DIR) {
     const std::string file = std::regex_replace(kernel, std::regex("::"), "_");
-    std::ifstream stream(fmt::format("{}/zonal/order{:02}/{}.hpp", ZONAL_GENERATED_DIR, order, file));
+    std::ifstream stream(fmt::format("{}/zonal/order{:02}/{}.hpp", folder, order, file));
     std::stringstream text;
     text << stream.rdbuf();
     return text.str();
 }
 
 /// The header's first comment: expressions take long to find in all of it.
-std::string banner_text(int order, const std::string& kernel) {
-    const std::string text = text_of(order, kernel);
+std::string banner_text(int order, const std::string& kernel,
+                        const std::string& folder = ZONAL_GENERATED_DIR) {
+    const std::string text = text_of(order, kernel, folder);
     return text.substr(0, text.find("#pragma once"));
 }
 
@@ -53,8 +54,11 @@ bool comment_takes_mirrors(int order, const std::string& kernel) {
     return text.compare(place + words.size(), 6, " or -1") == 0;
 }
 
-Cost cost(int order, const std::string& kernel) {
-    const std::string text = banner_text(order, kernel), counts = R"((\d+ mul \d+ add \d+ fma \d+ other))";
+Cost cost(int order, const std::string& kernel) { return cost_in(ZONAL_GENERATED_DIR, order, kernel); }
+
+Cost cost_in(const std::string& folder, int order, const std::string& kernel) {
+    const std::string text = banner_text(order, kernel, folder),
+                      counts = R"((\d+ mul \d+ add \d+ fma \d+ other))";
     const std::smatch match =
         find(order, kernel, text, "cost    : " + counts + R"(;\s+//\s+per extra vector )" + counts);
     return {match[1], match[2]};

@@ -9,8 +9,8 @@ struct Bound {
     double float_bound = 0;
     double double_bound = 0;
     double float_apart = 0, double_apart = 0;  ///< without fused instructions
-    double excess = 0;           ///< for each unit of ‖R Rᵀ - I‖_F
-    bool takes_mirrors = false;  ///< holds for det R = -1 too
+    double excess = 0;                         ///< for each unit of ‖R Rᵀ - I‖_F
+    bool takes_mirrors = false;                ///< holds for det R = -1 too
 };
 /// Throws std::runtime_error naming order and kernel where it publishes none.
 Bound bound(int order, const std::string& kernel);
@@ -25,5 +25,7 @@ struct Cost {
     std::string one, further;
 };
 Cost cost(int order, const std::string& kernel);
+/// The same of C++ in another folder than that of the committed code.
+Cost cost_in(const std::string& folder, int order, const std::string& kernel);
 
 }  // namespace zonal::banner

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bounds/body_hash.hpp"
 #include "bounds/published.hpp"
 #include "io/user_error.hpp"
 #include "kernels/order_kernels.hpp"
@@ -35,24 +36,26 @@ std::string complaint_of(const Work& work) {
 class OwnTables : public testing::Test {
   protected:
     OwnTables() {
-        folder_ = fs::path(testing::TempDir()) / ("zonal_own_tables_" + std::to_string(getpid()));
-        fs::remove_all(folder_);
+        home_ = fs::path(testing::TempDir()) / ("zonal_own_tables_" + std::to_string(getpid()));
+        folder_ = home_ / "tables";
+        bounds_ = home_ / "bounds/bounds.json";
+        fs::remove_all(home_);
+        fs::create_directories(home_);
         fs::copy(kTables, folder_, fs::copy_options::recursive);
+        fs::create_directories(bounds_.parent_path());
+        fs::copy(kTables.parent_path() / "bounds/bounds.json", bounds_);
         setenv("ZONAL_TABLES_DIR", folder_.c_str(), 1);
     }
     ~OwnTables() override {
         unsetenv("ZONAL_TABLES_DIR");
-        fs::remove_all(folder_);
+        fs::remove_all(home_);
     }
 
     static std::string complaint_about_order(int order) {
-        return complaint_of([&] {
-            const OrderKernels kernels = build_order_kernels(order);
-            published_bounds(order, kernels.tables, kernels.kernels);
-        });
+        return complaint_of([&] { published_bounds(build_order_kernels(order)); });
     }
 
-    fs::path folder_;
+    fs::path home_, folder_, bounds_;
 };
 
 TEST(PublishedTables, are_those_of_the_folder) {
@@ -65,7 +68,7 @@ TEST(PublishedTables, are_those_of_the_folder) {
         }
     std::size_t files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(kTables))
-        files += entry.path().extension() == ".json" && entry.path().filename() != "bounds.json";
+        files += entry.path().extension() == ".json";
     EXPECT_EQ(published, files);
     EXPECT_EQ(complaint_of([] { check_tables_are_there(kTables); }), "none");
 }
@@ -86,11 +89,11 @@ TEST_F(OwnTables, a_missing_one_is_an_error_that_names_it) {
 TEST_F(OwnTables, a_missing_folder_is_named_as_such) {
     setenv("ZONAL_TABLES_DIR", "/nowhere", 1);
     EXPECT_THAT(complaint_about_order(3), HasSubstr("/nowhere: found no such folder"));
-    EXPECT_THAT(complaint_about_order(2), HasSubstr("/nowhere/bounds.json: file: found nothing"));
+    EXPECT_THAT(complaint_about_order(2), HasSubstr("/bounds/bounds.json: file: found nothing"));
 }
 
 TEST_F(OwnTables, bounds_that_are_missing_or_of_something_else_are_an_error) {
-    const fs::path path = folder_ / "bounds.json";
+    const fs::path path = bounds_;
     const auto complaint_with = [&](const std::string& text) {
         std::ofstream(path) << text;
         return complaint_about_order(3);
@@ -109,11 +112,11 @@ TEST_F(OwnTables, bounds_that_are_missing_or_of_something_else_are_an_error) {
                 HasSubstr("bounds[0].order: found 2.5, wanted a whole number"));
     EXPECT_THAT(complaint_with(edited("\"float\": \"2.2e-07\"", "\"float\": \"1\\nint x;\"")),
                 HasSubstr("bounds[0].float: found \"1\\nint x;\", wanted a positive decimal"));
-    std::string foreign = whole;  // measured with other tables
-    for (std::size_t at = 0; (at = foreign.find("\"table\": \"", at)) != std::string::npos; at += 10)
-        if (foreign[at + 10] != '"') foreign[at + 10] = foreign[at + 10] == '0' ? '1' : '0';
-    EXPECT_THAT(complaint_with(foreign),
-                HasSubstr("found none of rotate_zhf of order 3 made of the table sha256:"));
+    const OrderKernels kernels = build_order_kernels(3);
+    const std::string body = body_hash(graph::kernel_named(kernels.kernels, "rotate_zhf"), kernels.kernels);
+    EXPECT_THAT(complaint_with(edited(body, "0123456789abcdef")),  // measured with other tables
+                AllOf(HasSubstr("found none of rotate_zhf of order 3 with the body " + body),
+                      HasSubstr("--missing --orders 3")));
     fs::remove(path);
     EXPECT_THAT(complaint_about_order(3), HasSubstr("bounds.json: file: found nothing that can be read"));
 }

@@ -46,6 +46,13 @@ double zyz_tolerance(int order) {
     return tolerance<T>(order) + 9.0 * (order - 1) * (order - 1) * epsilon;
 }
 
+/// What sqrt(1 - c^2) loses: 1 - c^2 is wrong by eps, so the root by sqrt(eps) at the most, where it is 0;
+/// and N - 1 times that in the multiples of the angle.
+template <class T>
+double cancelled_tolerance(int order) {
+    return (order - 1) * std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()));
+}
+
 template <class T>
 using RotateFunction = std::function<void(const T* R, const T* f, T* out)>;
 
@@ -60,10 +67,10 @@ struct Baseline {
 };
 
 /// zyz_without_angles of an order that is known when the test runs.
-template <class T, int N = 2>
+template <class T, baselines::SineOfBeta form, int N = 2>
 RotateFunction<T> zyz_of(int order) {
-    if (order == N) return baselines::zyz_without_angles<N, T>;
-    if constexpr (N < baselines::kLastZyzOrder) return zyz_of<T, N + 1>(order);
+    if (order == N) return baselines::zyz_without_angles<N, form, T>;
+    if constexpr (N < baselines::kLastZyzOrder) return zyz_of<T, form, N + 1>(order);
     return nullptr;
 }
 
@@ -87,8 +94,12 @@ std::vector<Baseline<T>> baselines_of(int order) {
         {"zxzxz", false, true, true, usual,
          [=](const T* R, const T* f, T* out) { zxzxz->rotate(R, f, out); }},
     };
-    if (const auto rotate = zyz_of<T>(order))
+    using enum baselines::SineOfBeta;
+    if (const auto rotate = zyz_of<T, length_of_column>(order))
         all.push_back({"z-y-z without angles", false, true, false, zyz_tolerance<T>(order), rotate});
+    if (const auto rotate = zyz_of<T, root_of_cosine>(order))
+        all.push_back({"z-y-z as DirectXMath", false, true, false,
+                       zyz_tolerance<T>(order) + cancelled_tolerance<T>(order), rotate});
     return all;
 }
 

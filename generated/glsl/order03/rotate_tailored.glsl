@@ -79,7 +79,7 @@ void zonal_order3_lobes(highp float R[9], out highp float directions[15]) {
 // o : 4 values, index l(l+1)+m.
 // Cost: 3 mul 0 add 6 fma 0 other;
 //   per extra vector 3 mul 0 add 6 fma 0 other.
-// Error: none published: see generator/tables/README.md.
+// Error: none published: see generator/bounds/README.md.
 // Source: low bands as tensors, contracted with the rows of R.
 void zonal_order3_rotate_low(highp float R[9], highp float f[4], out highp float o[4]) {
     highp float r00 = R[0];

@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 46 mul 17 add 105 fma 0 other;
 //           per extra vector 18 mul 0 add 38 fma 0 other
-// bound   : 7.1e-07 (float), 1.4e-15 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 7.1e-07 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 1.00 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
@@ -16,7 +17,8 @@
 // o : 9 values, index l(l+1)+m.
 // Cost: 46 mul 17 add 105 fma 0 other;
 //   per extra vector 18 mul 0 add 38 fma 0 other.
-// Error: 7.1e-07 (float), 1.4e-15 (double), with fused instructions, for det R = +1 or -1;
+// Error: 7.1e-07 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 1.00 |R R^T - I|_F is added.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 void zonal_order3_stable_rotate_zhf(highp float R[9], highp float f[9], out highp float o[9]) {

@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 204 mul 69 add 387 fma 0 other;
 //           per extra vector 99 mul 0 add 255 fma 0 other
-// bound   : 3.1e-06 (float), 4.9e-15 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 3.1e-06 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 2.00 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
@@ -16,7 +17,8 @@
 // o : 25 values, index l(l+1)+m.
 // Cost: 204 mul 69 add 387 fma 0 other;
 //   per extra vector 99 mul 0 add 255 fma 0 other.
-// Error: 3.1e-06 (float), 4.9e-15 (double), with fused instructions, for det R = +1 or -1;
+// Error: 3.1e-06 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 2.00 |R R^T - I|_F is added.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 void zonal_order5_stable_rotate_zhf(highp float R[9], highp float f[25], out highp float o[25]) {

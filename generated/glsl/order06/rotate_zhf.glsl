@@ -4,7 +4,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 368 mul 83 add 569 fma 0 other;
 //           per extra vector 170 mul 4 add 328 fma 0 other
-// bound   : 3.4e-06 (float), 5.1e-15 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 4.0e-06 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 2.50 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
@@ -17,7 +18,8 @@
 // o : 36 values, index l(l+1)+m.
 // Cost: 368 mul 83 add 569 fma 0 other;
 //   per extra vector 170 mul 4 add 328 fma 0 other.
-// Error: 3.4e-06 (float), 5.1e-15 (double), with fused instructions, for det R = +1 or -1;
+// Error: 4.0e-06 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 2.50 |R R^T - I|_F is added.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 void zonal_order6_rotate_zhf(highp float R[9], highp float f[36], out highp float o[36]) {

@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 369 mul 96 add 762 fma 0 other;
 //           per extra vector 177 mul 0 add 500 fma 0 other
-// bound   : 2.2e-06 (float), 4.0e-15 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 2.4e-06 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 2.50 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
@@ -16,7 +17,8 @@
 // o : 36 values, index l(l+1)+m.
 // Cost: 369 mul 96 add 762 fma 0 other;
 //   per extra vector 177 mul 0 add 500 fma 0 other.
-// Error: 2.2e-06 (float), 4.0e-15 (double), with fused instructions, for det R = +1 or -1;
+// Error: 2.4e-06 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 2.50 |R R^T - I|_F is added.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 void zonal_order6_stable_rotate_zhf(highp float R[9], highp float f[36], out highp float o[36]) {

@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 104 mul 39 add 210 fma 0 other;
 //           per extra vector 48 mul 0 add 119 fma 0 other
-// bound   : 1.5e-06 (float), 3.0e-15 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 1.6e-06 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 1.50 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
@@ -16,7 +17,8 @@
 // o : 16 values, index l(l+1)+m.
 // Cost: 104 mul 39 add 210 fma 0 other;
 //   per extra vector 48 mul 0 add 119 fma 0 other.
-// Error: 1.5e-06 (float), 3.0e-15 (double), with fused instructions, for det R = +1 or -1;
+// Error: 1.6e-06 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 1.50 |R R^T - I|_F is added.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 void zonal_order4_stable_rotate_zhf(float R[9], float f[16], out float o[16]) {

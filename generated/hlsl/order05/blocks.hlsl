@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 355 mul 30 add 292 fma 0 other;
 //           per extra vector 0 mul 0 add 0 fma 0 other
-// bound   : 3.0e-07 (float), 5.6e-16 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 3.0e-07 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 2.14 |R R^T - I|_F is added
 // source  : Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
 
@@ -15,7 +16,8 @@
 // dense : 165 values, row-major (2l+1) x (2l+1) for l = 0, 1, ....
 // Cost: 355 mul 30 add 292 fma 0 other;
 //   per extra vector 0 mul 0 add 0 fma 0 other.
-// Error: 3.0e-07 (float), 5.6e-16 (double), with fused instructions, for det R = +1 or -1;
+// Error: 3.0e-07 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 2.14 |R R^T - I|_F is added.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
 void zonal_order5_blocks(float R[9], out float dense[165]) {

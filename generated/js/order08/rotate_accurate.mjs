@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 1807 mul 102 add 2284 fma 0 other;
 //           per extra vector 63 mul 0 add 616 fma 0 other
-// bound   : 3.8e-07 (float), 6.6e-16 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 7.1e-16 in double, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 3.72 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -16,7 +17,8 @@
 // out : 64 values, index l(l+1)+m.
 // Cost: 1807 mul 102 add 2284 fma 0 other;
 //   per extra vector 63 mul 0 add 616 fma 0 other.
-// Error: 3.8e-07 (float), 6.6e-16 (double), with fused instructions, for det R = +1 or -1;
+// Error: 7.1e-16 in double, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 3.72 |R R^T - I|_F is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.

@@ -4,7 +4,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 100 mul 28 add 164 fma 0 other;
 //           per extra vector 50 mul 3 add 79 fma 0 other
-// bound   : 1.5e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 1.7e-06 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 1.50 |R R^T - I|_F is added
 // source  : Nowrouzezahrai, Simari, Fiume 2012, eq. 10
 
@@ -15,7 +16,8 @@
 // out : 16 values, index l(l+1)+m.
 // Cost: 100 mul 28 add 164 fma 0 other;
 //   per extra vector 50 mul 3 add 79 fma 0 other.
-// Error: 1.5e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1 or -1;
+// Error: 1.7e-06 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 1.50 |R R^T - I|_F is added.
 // Source: Nowrouzezahrai, Simari, Fiume 2012, eq. 10.
 fn zonal_order4_rotate_zhf(R: array<f32, 9>, f: array<f32, 16>) -> array<f32, 16> {

@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 379 mul 30 add 432 fma 0 other;
 //           per extra vector 24 mul 0 add 140 fma 0 other
-// bound   : 3.0e-07 (float), 5.6e-16 (double), with fused instructions, for det R = +1 or -1;
+// bound   : 3.0e-07 in float, fused or not, for det R = +1 or -1;
+//           measured x 1.5;
 //           relative to |f|; 2.14 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998
@@ -16,7 +17,8 @@
 // out : 25 values, index l(l+1)+m.
 // Cost: 379 mul 30 add 432 fma 0 other;
 //   per extra vector 24 mul 0 add 140 fma 0 other.
-// Error: 3.0e-07 (float), 5.6e-16 (double), with fused instructions, for det R = +1 or -1;
+// Error: 3.0e-07 in float, fused or not, for det R = +1 or -1;
+//   measured x 1.5;
 //   relative to |f|; 2.14 |R R^T - I|_F is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.

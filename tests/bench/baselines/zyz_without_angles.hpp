@@ -1,6 +1,7 @@
 // Z(a) X⁻¹ Z(b) X Z(g) of one order as straight code. X, the quarter turn about x, is constant and three
 // quarters zeros; sines and cosines of a, b and g are entries of R, normalised, those of multiples come by
-// recurrence. DirectXMath rotates so, but for a third root that it takes for sin b.
+// recurrence. Two forms: DirectXMath's, which takes a third root for sin b, and one that takes the length of
+// R's last column, which is faster and does not cancel near the poles.
 //
 // X shows what is polar about z about another axis: so its entries are Wigner's functions at 90 degrees up to
 // signs, sqrt((l+m)! (l-m)! / ((l+n)! (l-n)!)) / 2^l times the coefficient of x^(l-m) in (1+x)^(l+n)
@@ -146,9 +147,12 @@ template <int top, class T, int... i>
 /// Highest order of zyz_without_angles: straight code of more takes long to compile.
 inline constexpr int kLastZyzOrder = 10;
 
+/// Where sin b comes from.
+enum class SineOfBeta { root_of_cosine, length_of_column };
+
 /// R : row-major, orthonormal, determinant +1. f, out: N^2 values, index l(l+1)+m; out may be f.
 /// N is 2 ... 10, T float or double.
-template <int N, class T>
+template <int N, SineOfBeta form, class T>
 inline void zyz_without_angles(const T* R, const T* f, T* out) {
     static_assert(N >= 2 && N <= kLastZyzOrder);
     const T y = f[1], z = f[2], x = f[3];
@@ -163,8 +167,10 @@ inline void zyz_without_angles(const T* R, const T* f, T* out) {
         const T column = R[2] * R[2] + R[5] * R[5], row = R[6] * R[6] + R[7] * R[7];
         T cos_alpha = 1, sin_alpha = 0, sin_beta = 0, cos_gamma = R[4], sin_gamma = R[3];
         if (std::min(column, row) > kSmallest) {
-            sin_beta = std::sqrt(column);
-            const T over_column = 1 / sin_beta, over_row = 1 / std::sqrt(row);
+            const T length = std::sqrt(column);
+            sin_beta =
+                form == SineOfBeta::length_of_column ? length : std::sqrt(std::max(T(0), 1 - R[8] * R[8]));
+            const T over_column = 1 / length, over_row = 1 / std::sqrt(row);
             cos_alpha = R[2] * over_column, sin_alpha = R[5] * over_column;
             cos_gamma = -R[6] * over_row, sin_gamma = R[7] * over_row;
         }

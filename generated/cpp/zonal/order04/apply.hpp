@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 31 mul 0 add 50 fma 0 other;
 //           per extra vector 31 mul 0 add 50 fma 0 other
-// bound   : 1.3e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1;
+// bound   : 1.4e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1;
+//           1.5e-06, 2.8e-15 without them; measured x 1.5;
 //           relative to |f|; 1.50 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
@@ -15,7 +16,7 @@ namespace zonal::order4 {
 
 /// Largest relative error of apply for det R = +1 where R is orthonormal,
 /// with fused instructions, and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kApplyBoundFloat = 1.3e-06;
+inline constexpr double kApplyBoundFloat = 1.4e-06;
 inline constexpr double kApplyBoundDouble = 2.8e-15;
 inline constexpr double kApplyExcess = 1.50;
 
@@ -27,7 +28,8 @@ inline constexpr double kApplyExcess = 1.50;
 /// out may be f; they must not overlap in part.
 /// Cost: 31 mul 0 add 50 fma 0 other;
 ///   per extra vector 31 mul 0 add 50 fma 0 other.
-/// Error: 1.3e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1;
+/// Error: 1.4e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1;
+///   1.5e-06, 2.8e-15 without them; measured x 1.5;
 ///   relative to |f|; 1.50 |R R^T - I|_F is added.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
@@ -44,20 +46,20 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const T r00 = scalars[7];
     const T r02 = scalars[8];
     const T minus_cos_gamma = scalars[9];
-    const T minus_sin_gamma = scalars[10];
+    const T sin_gamma = scalars[10];
     const T cos_2gamma = scalars[11];
-    const T sin_2gamma = scalars[12];
+    const T minus_sin_2gamma = scalars[12];
     const T b2_e_scalar_1 = scalars[13];
     const T b2_e_scalar_2 = scalars[14];
     const T b2_e_scalar_3 = scalars[15];
     const T cos_beta = scalars[16];
     const T sin_beta = scalars[17];
-    const T cos_alpha = scalars[18];
+    const T minus_cos_alpha = scalars[18];
     const T sin_alpha = scalars[19];
     const T cos_2alpha = scalars[20];
-    const T sin_2alpha = scalars[21];
+    const T minus_sin_2alpha = scalars[21];
     const T cos_3gamma = scalars[22];
-    const T sin_3gamma = scalars[23];
+    const T minus_sin_3gamma = scalars[23];
     const T b3_e_scalar_1 = scalars[24];
     const T b3_e_scalar_2 = scalars[25];
     const T b3_o_scalar_1 = scalars[26];
@@ -66,7 +68,7 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const T b3_o_scalar_4 = scalars[29];
     const T b3_o_scalar_5 = scalars[30];
     const T b3_o_scalar_6 = scalars[31];
-    const T minus_cos_3alpha = scalars[32];
+    const T cos_3alpha = scalars[32];
     const T minus_sin_3alpha = scalars[33];
     out[0] = f[0];
     const V b1_1 = r11 * f[1];
@@ -82,48 +84,48 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     out[2] = b1_6;
     out[3] = b1_9;
     const V b2_g_1 = minus_cos_gamma * f[7];
-    const V b2_g_2 = fma(minus_sin_gamma, f[5], -b2_g_1);
-    const V b2_g_3 = minus_sin_gamma * f[7];
-    const V b2_g_4 = fma(minus_cos_gamma, f[5], b2_g_3);
+    const V b2_g_2 = fma(sin_gamma, f[5], b2_g_1);
+    const V b2_g_3 = sin_gamma * f[7];
+    const V b2_g_4 = fma(minus_cos_gamma, f[5], -b2_g_3);
     const V b2_g_5 = cos_2gamma * f[8];
-    const V b2_g_6 = fma(sin_2gamma, f[4], -b2_g_5);
-    const V b2_g_7 = sin_2gamma * f[8];
-    const V b2_g_8 = fma(cos_2gamma, f[4], b2_g_7);
+    const V b2_g_6 = fma(minus_sin_2gamma, f[4], b2_g_5);
+    const V b2_g_7 = minus_sin_2gamma * f[8];
+    const V b2_g_8 = fma(cos_2gamma, f[4], -b2_g_7);
     const V b2_e_1 = b2_e_scalar_1 * b2_g_6;
-    const V b2_e_2 = fma(b2_e_scalar_2, f[6], b2_e_1);
-    const V b2_e_3 = fma(b2_e_scalar_3, b2_g_2, b2_e_2);
+    const V b2_e_2 = fma(b2_e_scalar_2, f[6], -b2_e_1);
+    const V b2_e_3 = fma(-b2_e_scalar_3, b2_g_2, b2_e_2);
     const V b2_e_4 = fma(-b2_e_scalar_2, b2_e_3, f[6]);
-    const V b2_e_5 = fma(-b2_e_scalar_1, b2_e_3, b2_g_6);
-    const V b2_e_6 = fma(-b2_e_scalar_3, b2_e_3, b2_g_2);
+    const V b2_e_5 = fma(b2_e_scalar_1, b2_e_3, b2_g_6);
+    const V b2_e_6 = fma(b2_e_scalar_3, b2_e_3, b2_g_2);
     const V b2_o_1 = cos_beta * b2_g_8;
     const V b2_o_2 = fma(sin_beta, b2_g_4, -b2_o_1);
     const V b2_o_3 = sin_beta * b2_g_8;
     const V b2_o_4 = fma(cos_beta, b2_g_4, b2_o_3);
-    const V b2_a_1 = cos_alpha * b2_e_6;
+    const V b2_a_1 = minus_cos_alpha * b2_e_6;
     const V b2_a_2 = fma(sin_alpha, b2_o_4, -b2_a_1);
     const V b2_a_3 = sin_alpha * b2_e_6;
-    const V b2_a_4 = cos_2alpha * b2_e_5;
-    const V b2_a_5 = fma(sin_2alpha, b2_o_2, -b2_a_4);
-    const V b2_a_6 = sin_2alpha * b2_e_5;
+    const V b2_a_4 = fma(minus_cos_alpha, b2_o_4, b2_a_3);
+    const V b2_a_5 = cos_2alpha * b2_e_5;
+    const V b2_a_6 = minus_sin_2alpha * b2_e_5;
     const V b2_a_7 = fma(-cos_2alpha, b2_o_2, -b2_a_6);
-    const V b2_a_8 = fma(-cos_alpha, b2_o_4, -b2_a_3);
+    const V b2_a_8 = fma(-minus_sin_2alpha, b2_o_2, b2_a_5);
     out[4] = b2_a_7;
-    out[5] = b2_a_8;
+    out[5] = b2_a_4;
     out[6] = b2_e_4;
     out[7] = b2_a_2;
-    out[8] = b2_a_5;
+    out[8] = b2_a_8;
     const V b3_g_1 = minus_cos_gamma * f[13];
-    const V b3_g_2 = fma(minus_sin_gamma, f[11], -b3_g_1);
-    const V b3_g_3 = minus_sin_gamma * f[13];
-    const V b3_g_4 = fma(minus_cos_gamma, f[11], b3_g_3);
+    const V b3_g_2 = fma(sin_gamma, f[11], b3_g_1);
+    const V b3_g_3 = sin_gamma * f[13];
+    const V b3_g_4 = fma(minus_cos_gamma, f[11], -b3_g_3);
     const V b3_g_5 = cos_2gamma * f[14];
-    const V b3_g_6 = fma(sin_2gamma, f[10], -b3_g_5);
-    const V b3_g_7 = sin_2gamma * f[14];
-    const V b3_g_8 = fma(cos_2gamma, f[10], b3_g_7);
+    const V b3_g_6 = fma(minus_sin_2gamma, f[10], b3_g_5);
+    const V b3_g_7 = minus_sin_2gamma * f[14];
+    const V b3_g_8 = fma(cos_2gamma, f[10], -b3_g_7);
     const V b3_g_9 = cos_3gamma * f[15];
-    const V b3_g_10 = fma(sin_3gamma, f[9], -b3_g_9);
-    const V b3_g_11 = sin_3gamma * f[15];
-    const V b3_g_12 = fma(cos_3gamma, f[9], b3_g_11);
+    const V b3_g_10 = fma(minus_sin_3gamma, f[9], b3_g_9);
+    const V b3_g_11 = minus_sin_3gamma * f[15];
+    const V b3_g_12 = fma(cos_3gamma, f[9], -b3_g_11);
     const V b3_e_1 = b3_e_scalar_1 * b3_g_12;
     const V b3_e_2 = fma(b3_e_scalar_2, b3_g_4, b3_e_1);
     const V b3_e_3 = fma(-b2_e_scalar_3, b3_g_8, b3_e_2);
@@ -132,38 +134,38 @@ ZONAL_HOST_DEVICE static void apply(const T* scalars, const V* f, V* out) {
     const V b3_e_6 = fma(b2_e_scalar_3, b3_e_3, b3_g_8);
     const V b3_o_1 = fma(T(-0.25819888974716115), b3_g_2, b3_g_10);
     const V b3_o_2 = fma(T(0.25819888974716115), b3_g_10, b3_g_2);
-    const V b3_o_3 = fma(T(-0.7745966692414834), f[12], b3_g_6);
-    const V b3_o_4 = fma(T(0.7745966692414834), b3_g_6, f[12]);
+    const V b3_o_3 = fma(T(0.7745966692414834), f[12], b3_g_6);
+    const V b3_o_4 = fma(T(-0.7745966692414834), b3_g_6, f[12]);
     const V b3_o_5 = b3_o_scalar_1 * b3_o_1;
     const V b3_o_6 = fma(b3_o_scalar_2, b3_o_3, b3_o_5);
     const V b3_o_7 = b3_o_scalar_2 * b3_o_1;
     const V b3_o_8 = fma(b3_o_scalar_3, b3_o_3, -b3_o_7);
     const V b3_o_9 = b3_o_scalar_4 * b3_o_2;
-    const V b3_o_10 = fma(b3_o_scalar_5, b3_o_4, -b3_o_9);
+    const V b3_o_10 = fma(b3_o_scalar_5, b3_o_4, b3_o_9);
     const V b3_o_11 = b3_o_scalar_5 * b3_o_2;
-    const V b3_o_12 = fma(b3_o_scalar_6, b3_o_4, b3_o_11);
-    const V b3_o_13 = fma(T(-0.25819888974716115), b3_o_6, b3_o_10);
-    const V b3_o_14 = fma(T(0.25819888974716115), b3_o_10, b3_o_6);
-    const V b3_o_15 = fma(T(-0.7745966692414834), b3_o_12, b3_o_8);
-    const V b3_a_1 = cos_alpha * b3_o_13;
-    const V b3_a_2 = fma(sin_alpha, b3_e_4, b3_a_1);
+    const V b3_o_12 = fma(b3_o_scalar_6, b3_o_4, -b3_o_11);
+    const V b3_o_13 = fma(T(0.25819888974716115), b3_o_6, b3_o_10);
+    const V b3_o_14 = fma(T(-0.25819888974716115), b3_o_10, b3_o_6);
+    const V b3_o_15 = fma(T(0.7745966692414834), b3_o_12, b3_o_8);
+    const V b3_a_1 = minus_cos_alpha * b3_o_13;
+    const V b3_a_2 = fma(sin_alpha, b3_e_4, -b3_a_1);
     const V b3_a_3 = sin_alpha * b3_o_13;
-    const V b3_a_4 = cos_2alpha * b3_o_15;
-    const V b3_a_5 = fma(sin_2alpha, b3_e_6, -b3_a_4);
-    const V b3_a_6 = sin_2alpha * b3_o_15;
-    const V b3_a_7 = minus_cos_3alpha * b3_o_14;
+    const V b3_a_4 = fma(minus_cos_alpha, b3_e_4, b3_a_3);
+    const V b3_a_5 = cos_2alpha * b3_o_15;
+    const V b3_a_6 = minus_sin_2alpha * b3_o_15;
+    const V b3_a_7 = cos_3alpha * b3_o_14;
     const V b3_a_8 = fma(minus_sin_3alpha, b3_e_5, b3_a_7);
     const V b3_a_9 = minus_sin_3alpha * b3_o_14;
-    const V b3_a_10 = fma(-minus_cos_3alpha, b3_e_5, b3_a_9);
+    const V b3_a_10 = fma(cos_3alpha, b3_e_5, -b3_a_9);
     const V b3_a_11 = fma(-cos_2alpha, b3_e_6, -b3_a_6);
-    const V b3_a_12 = fma(-cos_alpha, b3_e_4, b3_a_3);
-    const V b3_o_16 = fma(T(-0.7745966692414834), b3_o_8, -b3_o_12);
+    const V b3_o_16 = fma(T(0.7745966692414834), b3_o_8, -b3_o_12);
+    const V b3_a_12 = fma(-minus_sin_2alpha, b3_e_6, b3_a_5);
     out[9] = b3_a_10;
     out[10] = b3_a_11;
-    out[11] = b3_a_12;
+    out[11] = b3_a_4;
     out[12] = b3_o_16;
     out[13] = b3_a_2;
-    out[14] = b3_a_5;
+    out[14] = b3_a_12;
     out[15] = b3_a_8;
 }
 

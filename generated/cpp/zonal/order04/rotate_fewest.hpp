@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 40 mul 5 add 70 fma 3 other;
 //           per extra vector 34 mul 0 add 52 fma 0 other
-// bound   : 1.3e-06 (float), 2.7e-15 (double), with fused instructions, for det R = +1;
+// bound   : 1.4e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1;
+//           1.6e-06, 2.9e-15 without them; measured x 1.5;
 //           relative to |f|; 1.50 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
@@ -16,8 +17,8 @@ namespace zonal::order4 {
 
 /// Largest relative error of rotate_fewest for det R = +1 where R is orthonormal,
 /// with fused instructions, and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateFewestBoundFloat = 1.3e-06;
-inline constexpr double kRotateFewestBoundDouble = 2.7e-15;
+inline constexpr double kRotateFewestBoundFloat = 1.4e-06;
+inline constexpr double kRotateFewestBoundDouble = 2.8e-15;
 inline constexpr double kRotateFewestExcess = 1.50;
 
 /// The exact rotation of one vector by the fewest instructions.
@@ -34,7 +35,8 @@ inline constexpr double kRotateFewestExcess = 1.50;
 /// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 40 mul 5 add 70 fma 3 other;
 ///   per extra vector 34 mul 0 add 52 fma 0 other.
-/// Error: 1.3e-06 (float), 2.7e-15 (double), with fused instructions, for det R = +1;
+/// Error: 1.4e-06 (float), 2.8e-15 (double), with fused instructions, for det R = +1;
+///   1.6e-06, 2.9e-15 without them; measured x 1.5;
 ///   relative to |f|; 1.50 |R R^T - I|_F is added.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
@@ -66,79 +68,79 @@ ZONAL_HOST_DEVICE static void rotate_fewest(const T* R, const V* f, V* out) {
         out[1] = b1_3;
         out[2] = b1_6;
         out[3] = b1_9;
-        const T euler_1 = copysign(T(is_single<T>::value ? 1e-15 : 1e-18), r02);
-        const T shifted_r02 = r02 + euler_1;
-        const T euler_2 = r12 * r12;
-        const T squared_sin_beta = fma(shifted_r02, shifted_r02, euler_2);
-        const T norm_r02_r12 = sqrt(squared_sin_beta);
-        const T cos_alpha = shifted_r02 / norm_r02_r12;
-        const T sin_alpha = r12 / norm_r02_r12;
-        const T euler_3 = r10 * cos_alpha;
-        const T minus_sin_gamma = fma(r00, sin_alpha, -euler_3);
-        const T euler_4 = r11 * cos_alpha;
-        const T minus_cos_gamma = fma(r01, sin_alpha, -euler_4);
-        const T euler_5 = fma(-r22, r22, T(1.0));
-        const T euler_6 = squared_sin_beta - euler_5;
-        const T minus_half_beta_defect = T(0.5) * euler_6;
-        const T sin_beta = fma(-norm_r02_r12, minus_half_beta_defect, norm_r02_r12);
+        const T euler_1 = copysign(T(is_single<T>::value ? 1e-15 : 1e-18), r20);
+        const T shifted_r20 = r20 + euler_1;
+        const T euler_2 = r21 * r21;
+        const T squared_sin_beta = fma(shifted_r20, shifted_r20, euler_2);
+        const T norm_r20_r21 = sqrt(squared_sin_beta);
+        const T minus_cos_gamma = shifted_r20 / norm_r20_r21;
+        const T sin_gamma = r21 / norm_r20_r21;
+        const T euler_3 = fma(-r22, r22, T(1.0));
+        const T euler_4 = squared_sin_beta - euler_3;
+        const T minus_half_beta_defect = T(0.5) * euler_4;
+        const T sin_beta = fma(-norm_r20_r21, minus_half_beta_defect, norm_r20_r21);
         const T cos_beta = fma(-r22, minus_half_beta_defect, r22);
-        const T euler_7 = fma(-minus_cos_gamma, minus_cos_gamma, T(1.0));
-        const T gamma_defect = fma(-minus_sin_gamma, minus_sin_gamma, euler_7);
+        const T euler_5 = r10 * sin_gamma;
+        const T minus_cos_alpha = fma(r11, minus_cos_gamma, -euler_5);
+        const T euler_6 = r00 * sin_gamma;
+        const T sin_alpha = fma(r01, minus_cos_gamma, -euler_6);
+        const T euler_7 = fma(-minus_cos_alpha, minus_cos_alpha, T(1.0));
+        const T alpha_defect = fma(-sin_alpha, sin_alpha, euler_7);
         const V b2_g_1 = minus_cos_gamma * f[7];
-        const V b2_g_2 = fma(minus_sin_gamma, f[5], -b2_g_1);
-        const V b2_g_3 = minus_sin_gamma * f[7];
-        const V b2_g_4 = fma(minus_cos_gamma, f[5], b2_g_3);
+        const V b2_g_2 = fma(sin_gamma, f[5], b2_g_1);
+        const V b2_g_3 = sin_gamma * f[7];
+        const V b2_g_4 = fma(minus_cos_gamma, f[5], -b2_g_3);
         const T minus_twice_cos_gamma = minus_cos_gamma + minus_cos_gamma;
-        const T minus_twice_cos_gamma_over_n =
-            fma(gamma_defect, minus_twice_cos_gamma, minus_twice_cos_gamma);
-        const T sin_2gamma = minus_sin_gamma * minus_twice_cos_gamma_over_n;
-        const T cos_2gamma = fma(minus_cos_gamma, minus_twice_cos_gamma_over_n, T(-1.0));
+        const T minus_sin_2gamma = sin_gamma * minus_twice_cos_gamma;
+        const T cos_2gamma = fma(minus_cos_gamma, minus_twice_cos_gamma, T(-1.0));
         const V b2_g_5 = cos_2gamma * f[8];
-        const V b2_g_6 = fma(sin_2gamma, f[4], -b2_g_5);
-        const V b2_g_7 = sin_2gamma * f[8];
-        const V b2_g_8 = fma(cos_2gamma, f[4], b2_g_7);
+        const V b2_g_6 = fma(minus_sin_2gamma, f[4], b2_g_5);
+        const V b2_g_7 = minus_sin_2gamma * f[8];
+        const V b2_g_8 = fma(cos_2gamma, f[4], -b2_g_7);
         const T twice_cos_beta = cos_beta + cos_beta;
-        const V b2_e_1 = fma(T(1.7320508075688772), f[6], b2_g_6);
+        const V b2_e_1 = fma(T(-1.7320508075688772), f[6], b2_g_6);
         const V b2_e_2 = sin_beta * b2_e_1;
         const V b2_e_3 = fma(twice_cos_beta, b2_g_2, b2_e_2);
         const V b2_e_4 = sin_beta * b2_e_3;
-        const V b2_e_5 = fma(T(-0.8660254037844386), b2_e_4, f[6]);
+        const V b2_e_5 = fma(T(0.8660254037844386), b2_e_4, f[6]);
         const V b2_e_6 = fma(T(-0.5), b2_e_4, b2_g_6);
         const V b2_e_7 = fma(-cos_beta, b2_e_3, b2_g_2);
         const V b2_o_1 = cos_beta * b2_g_8;
         const V b2_o_2 = fma(sin_beta, b2_g_4, -b2_o_1);
         const V b2_o_3 = sin_beta * b2_g_8;
         const V b2_o_4 = fma(cos_beta, b2_g_4, b2_o_3);
-        const V b2_a_1 = cos_alpha * b2_e_7;
+        const V b2_a_1 = minus_cos_alpha * b2_e_7;
         const V b2_a_2 = fma(sin_alpha, b2_o_4, -b2_a_1);
         const V b2_a_3 = sin_alpha * b2_e_7;
-        const T twice_cos_alpha = cos_alpha + cos_alpha;
-        const T sin_2alpha = sin_alpha * twice_cos_alpha;
-        const T cos_2alpha = fma(cos_alpha, twice_cos_alpha, T(-1.0));
-        const V b2_a_4 = cos_2alpha * b2_e_6;
-        const V b2_a_5 = fma(sin_2alpha, b2_o_2, -b2_a_4);
-        const V b2_a_6 = sin_2alpha * b2_e_6;
+        const V b2_a_4 = fma(minus_cos_alpha, b2_o_4, b2_a_3);
+        const T minus_twice_cos_alpha = minus_cos_alpha + minus_cos_alpha;
+        const T minus_twice_cos_alpha_over_n =
+            fma(alpha_defect, minus_twice_cos_alpha, minus_twice_cos_alpha);
+        const T minus_sin_2alpha = sin_alpha * minus_twice_cos_alpha_over_n;
+        const T cos_2alpha = fma(minus_cos_alpha, minus_twice_cos_alpha_over_n, T(-1.0));
+        const V b2_a_5 = cos_2alpha * b2_e_6;
+        const V b2_a_6 = minus_sin_2alpha * b2_e_6;
         const V b2_a_7 = fma(-cos_2alpha, b2_o_2, -b2_a_6);
-        const V b2_a_8 = fma(-cos_alpha, b2_o_4, -b2_a_3);
+        const V b2_a_8 = fma(-minus_sin_2alpha, b2_o_2, b2_a_5);
         out[4] = b2_a_7;
-        out[5] = b2_a_8;
+        out[5] = b2_a_4;
         out[6] = b2_e_5;
         out[7] = b2_a_2;
-        out[8] = b2_a_5;
+        out[8] = b2_a_8;
         const V b3_g_1 = minus_cos_gamma * f[13];
-        const V b3_g_2 = fma(minus_sin_gamma, f[11], -b3_g_1);
-        const V b3_g_3 = minus_sin_gamma * f[13];
-        const V b3_g_4 = fma(minus_cos_gamma, f[11], b3_g_3);
+        const V b3_g_2 = fma(sin_gamma, f[11], b3_g_1);
+        const V b3_g_3 = sin_gamma * f[13];
+        const V b3_g_4 = fma(minus_cos_gamma, f[11], -b3_g_3);
         const V b3_g_5 = cos_2gamma * f[14];
-        const V b3_g_6 = fma(sin_2gamma, f[10], -b3_g_5);
-        const V b3_g_7 = sin_2gamma * f[14];
-        const V b3_g_8 = fma(cos_2gamma, f[10], b3_g_7);
+        const V b3_g_6 = fma(minus_sin_2gamma, f[10], b3_g_5);
+        const V b3_g_7 = minus_sin_2gamma * f[14];
+        const V b3_g_8 = fma(cos_2gamma, f[10], -b3_g_7);
         const T cos_3gamma = fma(-minus_twice_cos_gamma, cos_2gamma, minus_cos_gamma);
-        const T sin_3gamma = fma(-minus_twice_cos_gamma, sin_2gamma, minus_sin_gamma);
+        const T minus_sin_3gamma = fma(-minus_twice_cos_gamma, minus_sin_2gamma, sin_gamma);
         const V b3_g_9 = cos_3gamma * f[15];
-        const V b3_g_10 = fma(sin_3gamma, f[9], -b3_g_9);
-        const V b3_g_11 = sin_3gamma * f[15];
-        const V b3_g_12 = fma(cos_3gamma, f[9], b3_g_11);
+        const V b3_g_10 = fma(minus_sin_3gamma, f[9], b3_g_9);
+        const V b3_g_11 = minus_sin_3gamma * f[15];
+        const V b3_g_12 = fma(cos_3gamma, f[9], -b3_g_11);
         const V b3_e_1 = T(1.2247448713915889) * b3_g_12;
         const V b3_e_2 = fma(T(1.5811388300841898), b3_g_4, b3_e_1);
         const V b3_e_3 = sin_beta * b3_e_2;
@@ -149,9 +151,9 @@ ZONAL_HOST_DEVICE static void rotate_fewest(const T* R, const V* f, V* out) {
         const V b3_e_8 = fma(-cos_beta, b3_e_4, b3_g_8);
         const V b3_o_1 = fma(T(-0.25819888974716115), b3_g_2, b3_g_10);
         const V b3_o_2 = fma(T(0.24206145913796356), b3_o_1, b3_g_2);
-        const V b3_o_3 = fma(T(-0.39555363668733001), f[12], b3_g_6);
-        const V b3_o_4 = fma(T(0.59292706128157113), b3_o_3, f[12]);
-        const V b3_o_5 = fma(T(-0.309487340104943), b3_o_4, b3_o_3);
+        const V b3_o_3 = fma(T(0.39555363668733001), f[12], b3_g_6);
+        const V b3_o_4 = fma(T(-0.59292706128157113), b3_o_3, f[12]);
+        const V b3_o_5 = fma(T(0.309487340104943), b3_o_4, b3_o_3);
         const V b3_o_6 = cos_beta * b3_o_1;
         const V b3_o_7 = fma(sin_beta, b3_o_5, b3_o_6);
         const V b3_o_8 = sin_beta * b3_o_1;
@@ -160,35 +162,35 @@ ZONAL_HOST_DEVICE static void rotate_fewest(const T* R, const V* f, V* out) {
         const T minus_cos_3beta = fma(-cos_beta, twice_cos_2beta, cos_beta);
         const T sin_3beta = fma(sin_beta, twice_cos_2beta, sin_beta);
         const V b3_o_10 = minus_cos_3beta * b3_o_2;
-        const V b3_o_11 = fma(sin_3beta, b3_o_4, -b3_o_10);
+        const V b3_o_11 = fma(sin_3beta, b3_o_4, b3_o_10);
         const V b3_o_12 = sin_3beta * b3_o_2;
-        const V b3_o_13 = fma(minus_cos_3beta, b3_o_4, b3_o_12);
-        const V b3_o_14 = fma(T(-0.24206145913796356), b3_o_7, b3_o_11);
-        const V b3_o_15 = fma(T(0.25819888974716115), b3_o_14, b3_o_7);
-        const V b3_o_16 = fma(T(-0.309487340104943), b3_o_13, b3_o_9);
-        const V b3_o_17 = fma(T(0.59292706128157113), b3_o_16, b3_o_13);
+        const V b3_o_13 = fma(minus_cos_3beta, b3_o_4, -b3_o_12);
+        const V b3_o_14 = fma(T(0.24206145913796356), b3_o_7, b3_o_11);
+        const V b3_o_15 = fma(T(-0.25819888974716115), b3_o_14, b3_o_7);
+        const V b3_o_16 = fma(T(0.309487340104943), b3_o_13, b3_o_9);
+        const V b3_o_17 = fma(T(-0.59292706128157113), b3_o_16, b3_o_13);
         const V b3_o_18 = -b3_o_17;
-        const V b3_o_19 = fma(T(-0.39555363668733001), b3_o_17, b3_o_16);
-        const V b3_a_1 = cos_alpha * b3_o_14;
-        const V b3_a_2 = fma(sin_alpha, b3_e_6, b3_a_1);
+        const V b3_o_19 = fma(T(0.39555363668733001), b3_o_17, b3_o_16);
+        const V b3_a_1 = minus_cos_alpha * b3_o_14;
+        const V b3_a_2 = fma(sin_alpha, b3_e_6, -b3_a_1);
         const V b3_a_3 = sin_alpha * b3_o_14;
-        const V b3_a_4 = cos_2alpha * b3_o_19;
-        const V b3_a_5 = fma(sin_2alpha, b3_e_8, -b3_a_4);
-        const V b3_a_6 = sin_2alpha * b3_o_19;
-        const T minus_cos_3alpha = fma(-twice_cos_alpha, cos_2alpha, cos_alpha);
-        const T minus_sin_3alpha = fma(-twice_cos_alpha, sin_2alpha, sin_alpha);
-        const V b3_a_7 = minus_cos_3alpha * b3_o_15;
+        const V b3_a_4 = fma(minus_cos_alpha, b3_e_6, b3_a_3);
+        const V b3_a_5 = cos_2alpha * b3_o_19;
+        const V b3_a_6 = minus_sin_2alpha * b3_o_19;
+        const T cos_3alpha = fma(-minus_twice_cos_alpha, cos_2alpha, minus_cos_alpha);
+        const T minus_sin_3alpha = fma(-minus_twice_cos_alpha, minus_sin_2alpha, sin_alpha);
+        const V b3_a_7 = cos_3alpha * b3_o_15;
         const V b3_a_8 = fma(minus_sin_3alpha, b3_e_7, b3_a_7);
         const V b3_a_9 = minus_sin_3alpha * b3_o_15;
-        const V b3_a_10 = fma(-minus_cos_3alpha, b3_e_7, b3_a_9);
+        const V b3_a_10 = fma(cos_3alpha, b3_e_7, -b3_a_9);
         const V b3_a_11 = fma(-cos_2alpha, b3_e_8, -b3_a_6);
-        const V b3_a_12 = fma(-cos_alpha, b3_e_6, b3_a_3);
+        const V b3_a_12 = fma(-minus_sin_2alpha, b3_e_8, b3_a_5);
         out[9] = b3_a_10;
         out[10] = b3_a_11;
-        out[11] = b3_a_12;
+        out[11] = b3_a_4;
         out[12] = b3_o_18;
         out[13] = b3_a_2;
-        out[14] = b3_a_5;
+        out[14] = b3_a_12;
         out[15] = b3_a_8;
     }
 }

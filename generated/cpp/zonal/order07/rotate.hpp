@@ -3,7 +3,8 @@
 // basis   : real, orthonormal, index l(l+1)+m, no Condon-Shortley sign, z polar
 // cost    : 158 mul 8 add 299 fma 3 other;
 //           per extra vector 131 mul 0 add 265 fma 0 other
-// bound   : 8.8e-07 (float), 1.7e-15 (double), with fused instructions, for det R = +1;
+// bound   : 1.1e-06 (float), 1.9e-15 (double), with fused instructions, for det R = +1;
+//           1.2e-06, 1.9e-15 without them; measured x 1.5;
 //           relative to |f|; 3.00 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
@@ -17,8 +18,8 @@ namespace zonal::order7 {
 
 /// Largest relative error of rotate for det R = +1 where R is orthonormal,
 /// with fused instructions, and what is added for each unit of |R R^T - I|_F.
-inline constexpr double kRotateBoundFloat = 8.8e-07;
-inline constexpr double kRotateBoundDouble = 1.7e-15;
+inline constexpr double kRotateBoundFloat = 1.1e-06;
+inline constexpr double kRotateBoundDouble = 1.9e-15;
 inline constexpr double kRotateExcess = 3.00;
 
 /// What to call: the fastest exact rotation with at most five times the least error,
@@ -36,7 +37,8 @@ inline constexpr double kRotateExcess = 3.00;
 /// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
 /// Cost: 158 mul 8 add 299 fma 3 other;
 ///   per extra vector 131 mul 0 add 265 fma 0 other.
-/// Error: 8.8e-07 (float), 1.7e-15 (double), with fused instructions, for det R = +1;
+/// Error: 1.1e-06 (float), 1.9e-15 (double), with fused instructions, for det R = +1;
+///   1.2e-06, 1.9e-15 without them; measured x 1.5;
 ///   relative to |f|; 3.00 |R R^T - I|_F is added.
 /// Source: low bands as tensors, contracted with the rows of R.
 /// Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
