@@ -16,7 +16,13 @@ namespace {
 
 constexpr int kLastRecursionBand = 19;
 
-const char* const kLoops = R"(template <class T>
+const char* const kLoops = R"(#if defined(__GNUC__) || defined(_MSC_VER)
+#define ZONAL_RESTRICT __restrict
+#else
+#define ZONAL_RESTRICT
+#endif
+
+template <class T>
 using constant_of = std::conditional_t<is_single<T>::value, float, double>;
 
 // Band 1 by orders -1, 0, 1, that is y, z, x: entry (i, j) of a block at r[3 (i + 1) + j + 1].
@@ -33,7 +39,8 @@ ZONAL_INLINE void rows_before(int l, int m, RowOfBandBefore<C>* terms) {
     const int k = m < 0 ? -m : m, sign = m < 0 ? -1 : 1;
     const C root_2 = C(1.4142135623730951), none = C(0);
     const C u = k < l ? RecursionRoots<C>::product(l, k) : none;
-    const C v = RecursionRoots<C>::consecutive(l + k) / 2, w = RecursionRoots<C>::consecutive(l - k) / -2;
+    const C v = RecursionRoots<C>::consecutive(l + k) / 2;
+    const C w = RecursionRoots<C>::consecutive(l - k) / -2;
     const bool is_last = k >= l - 1;
     terms[0] = {0, k < l ? m : 0, u};
     if (m == 0) {
@@ -49,50 +56,46 @@ ZONAL_INLINE void rows_before(int l, int m, RowOfBandBefore<C>* terms) {
     terms[4] = {-sign, is_last ? 0 : -k - 1, is_last ? none : w};
 }
 
-// Row m of band l in its columns |n| <= most; `before`: band l - 1.
+// Row m of band l in its columns |n| <= most; `before`: band l - 1, `factors`: the columns' at n.
 template <class T>
-ZONAL_INLINE void inner_row(int l, int m, int most, const T* r, const T* before, T* row) {
-    using C = constant_of<T>;
-    RowOfBandBefore<C> terms[5];
+ZONAL_INLINE void inner_row(int l, int m, int most, const T* r, const T* ZONAL_RESTRICT before,
+                            const T* ZONAL_RESTRICT factors, T* ZONAL_RESTRICT row) {
+    RowOfBandBefore<constant_of<T>> terms[5];
     rows_before(l, m, terms);
-    const int width = 2 * l - 1;
-    const T a = T(terms[0].factor) * r[3 * (terms[0].i + 1) + 1];
-    const T b = T(terms[1].factor) * r[3 * (terms[1].i + 1) + 1];
-    const T c = T(terms[2].factor) * r[3 * (terms[2].i + 1) + 1];
-    const T d = T(terms[3].factor) * r[3 * (terms[3].i + 1) + 1];
-    const T e = T(terms[4].factor) * r[3 * (terms[4].i + 1) + 1];
-    const T* const row_a = before + (terms[0].row + l - 1) * width + l - 1;
-    const T* const row_b = before + (terms[1].row + l - 1) * width + l - 1;
-    const T* const row_c = before + (terms[2].row + l - 1) * width + l - 1;
-    const T* const row_d = before + (terms[3].row + l - 1) * width + l - 1;
-    const T* const row_e = before + (terms[4].row + l - 1) * width + l - 1;
-    for (int n = -most; n <= most; ++n) {
-        const T sum =
-            fma(a, row_a[n], fma(b, row_b[n], fma(c, row_c[n], fma(d, row_d[n], e * row_e[n]))));
-        row[n] = T(RecursionRoots<C>::over_product(l, n < 0 ? -n : n)) * sum;
-    }
+    const auto part = [&](int k) { return T(terms[k].factor) * r[3 * terms[k].i + 4]; };
+    const T a = part(0), b = part(1), c = part(2), d = part(3), e = part(4);
+    const auto row_of = [&](int k) {
+        return before + (terms[k].row + l - 1) * (2 * l - 1) + l - 1;
+    };
+    const T *const A = row_of(0), *const B = row_of(1), *const C = row_of(2), *const D = row_of(3),
+            *const E = row_of(4);
+    for (int n = -most; n <= most; ++n)
+        row[n] = factors[n] * fma(a, A[n], fma(b, B[n], fma(c, C[n], fma(d, D[n], e * E[n]))));
 }
 
-// Row m of band l in its columns n > 0 and -n, by y_1^1 y_{l-1}^{n-1} -+ y_1^{-1} y_{l-1}^{1-n}.
+// Row m of band l in its columns from <= |n| <= to, by those of band l - 1 beside them.
 template <class T>
-ZONAL_INLINE void outer_pair(int l, int m, int n, const T* r, const T* before, T* row) {
-    using C = constant_of<T>;
-    RowOfBandBefore<C> terms[5];
+ZONAL_INLINE void outer_row(int l, int m, int from, int to, const T* r,
+                            const T* ZONAL_RESTRICT before, const T* ZONAL_RESTRICT factors,
+                            T* ZONAL_RESTRICT row) {
+    RowOfBandBefore<constant_of<T>> terms[5];
     rows_before(l, m, terms);
-    const auto sum = [&](int j, int column) {
-        const auto part = [&](int k) {
-            return T(terms[k].factor) * r[3 * (terms[k].i + 1) + j + 1];
-        };
-        const auto entry = [&](int k) {
-            return before[(terms[k].row + l - 1) * (2 * l - 1) + column + l - 1];
-        };
-        return fma(part(0), entry(0),
-                   fma(part(1), entry(1),
-                       fma(part(2), entry(2), fma(part(3), entry(3), part(4) * entry(4)))));
+    T plus[5] = {}, minus[5] = {};
+    const T* rows[5];
+    for (int k = 0; k < 5; ++k) {
+        plus[k] = T(terms[k].factor) * r[3 * terms[k].i + 5];
+        minus[k] = T(terms[k].factor) * r[3 * terms[k].i + 3];
+        rows[k] = before + (terms[k].row + l - 1) * (2 * l - 1) + l - 1;
+    }
+    const auto sum = [&](const T* parts, int n) {
+        T total = parts[4] * rows[4][n];
+        for (int k = 3; k >= 0; --k) total = fma(parts[k], rows[k][n], total);
+        return total;
     };
-    const T q = T(RecursionRoots<C>::over_consecutive(l + n));
-    row[n] = q * (sum(1, n - 1) - sum(-1, 1 - n));
-    row[-n] = q * (sum(1, 1 - n) + sum(-1, n - 1));
+    for (int n = from; n <= to; ++n) {
+        row[n] = factors[n] * (sum(plus, n - 1) - sum(minus, 1 - n));
+        row[-n] = factors[n] * (sum(plus, 1 - n) + sum(minus, n - 1));
+    }
 }
 
 // The blocks of one rotation, band by band up to N - 1.
@@ -121,32 +124,40 @@ struct DenseRecursion {
         const T* const before = block();
         const T* const before_by_columns = by_columns();
         ++l;
-        const int width = 2 * l + 1, most = MOST_INNER;
-        T* const now = blocks[l % 2];
-        T* const now_by_columns = transposes[l % 2];
-        const auto row_of = [&](T* matrix, int m) { return matrix + (m + l) * width + l; };
-        for (int m = -l; m <= l; ++m) inner_row(l, m, most, r, before, row_of(now, m));
-        // The matrix of the inverse: row m of it is column m.
-        for (int k = most + 1; k <= l; ++k)
+        const int most = MOST_INNER;
+        T* const rows = blocks[l % 2];
+        T* const columns = transposes[l % 2];
+        const auto at = [&](T* matrix, int m) { return matrix + (m + l) * (2 * l + 1) + l; };
+        using C = constant_of<T>;
+        T factors_at[2 * N - 1];
+        T* const factors = factors_at + l;
+        for (int n = 0; n <= l; ++n)
+            factors[n] = factors[-n] = T(n <= most ? RecursionRoots<C>::over_product(l, n)
+                                                   : RecursionRoots<C>::over_consecutive(l + n));
+        for (int m = -l; m <= l; ++m) inner_row(l, m, most, r, before, factors, at(rows, m));
+        for (int k = most + 1; k <= l; ++k) {
             for (const int m : {-k, k}) {
-                inner_row(l, m, most, inverse, before_by_columns, row_of(now_by_columns, m));
-                for (int n = most + 1; n < k; ++n)
-                    outer_pair(l, m, n, inverse, before_by_columns, row_of(now_by_columns, m));
+                outer_row(l, m, most + 1, k, r, before, factors, at(rows, m));
+                // Rows of the inverse's matrix are columns.
+                inner_row(l, m, most, inverse, before_by_columns, factors, at(columns, m));
+                if (k == most + 1) continue;
+                outer_row(l, m, most + 1, k - 1, inverse, before_by_columns, factors,
+                          at(columns, m));
             }
-        for (int k = most + 1; k <= l; ++k)
-            for (const int m : {-k, k})
-                for (int n = most + 1; n <= k; ++n) outer_pair(l, m, n, r, before, row_of(now, m));
-        // What each has, the other takes.
+        }
+        // What one has the other takes.
         for (int m = -l; m <= l; ++m)
-            for (int n = -l; n <= l; ++n) {
-                const int row = m < 0 ? -m : m, column = n < 0 ? -n : n;
-                T& direct = row_of(now, m)[n];
-                T& mirrored = row_of(now_by_columns, n)[m];
-                if (column > most && row < column)
-                    direct = mirrored;
-                else
-                    mirrored = direct;
+            for (int n = -most; n <= most; ++n) at(columns, n)[m] = at(rows, m)[n];
+        for (int k = most + 1; k <= l; ++k) {
+            for (const int n : {-k, k}) {
+                T* const column = at(columns, n);
+                for (int m = 1 - k; m < k; ++m) at(rows, m)[n] = column[m];
+                for (int m = k; m <= l; ++m) {
+                    column[m] = at(rows, m)[n];
+                    column[-m] = at(rows, -m)[n];
+                }
             }
+        }
     }
 
     // A band of a signal times the block; `out` may be `f`.
@@ -171,7 +182,7 @@ std::string table(const std::string& head, const std::string& index, int size,
     std::string text = fmt::format("    {} {{\n        static constexpr C values[] = {{", head);
     for (int k = 0; k < size; ++k)
         text +=
-            fmt::format("{}C({:.17g}),", k % 4 == 0 ? "\n            " : " ", static_cast<double>(value(k)));
+            fmt::format("{}C({:.17g}),", k % 3 == 0 ? "\n            " : " ", static_cast<double>(value(k)));
     text.pop_back();
     return text + fmt::format("}};\n        return values[{}];\n    }}\n", index);
 }
@@ -188,7 +199,8 @@ std::string roots() {
     const auto inverse = [](const graph::Number& root) {
         return root == 0 ? graph::Number(0) : graph::Number(1 / root);
     };
-    constexpr int kPairs = 2 * kLastRecursionBand + 1, kProducts = (kLastRecursionBand + 1) * (kLastRecursionBand + 2) / 2;
+    constexpr int kPairs = 2 * kLastRecursionBand + 1,
+                  kProducts = (kLastRecursionBand + 1) * (kLastRecursionBand + 2) / 2;
     const char* const of_band = "l * (l + 1) / 2 + m";
     return "// Roots of whole numbers, for bands up to 19. C: float or double.\ntemplate <class C>\n"
            "struct RecursionRoots {\n    // sqrt(j (j - 1)), 0 <= j, and what divides by it\n" +
@@ -214,9 +226,10 @@ graph::Counts count_of_blocks(int order) {
     graph::Counts counts;
     for (int l = 2; l < order; ++l) {
         const int most = kInnerTenths * l / 10, outer = l - most;
-        const int rows = 2 * l + 1 + 2 * outer, columns = 2 * most + 1, pairs = 2 * outer * outer;
-        counts.mul += rows * (5 + 2 * columns) + pairs * (4 * 6 + 2);
-        counts.fma += rows * 4 * columns + pairs * 4 * 4;
+        const int inner_rows = 2 * l + 1 + 2 * outer, columns = 2 * most + 1;
+        const int outer_rows = 2 * outer + 2 * (outer - 1), pairs = 2 * outer * outer;
+        counts.mul += inner_rows * (5 + 2 * columns) + outer_rows * 10 + pairs * (4 + 2);
+        counts.fma += inner_rows * 4 * columns + pairs * 4 * 4;
         counts.add += 2 * pairs;
     }
     return counts;

@@ -251,7 +251,7 @@ void run(const std::string& stats, double seconds) {
 #define ZONAL_REGISTER(N)                 \
     register_lobe_benchmarks<N, float>(); \
     register_lobe_benchmarks<N, double>();
-    ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_REGISTER)
+    ZONAL_FOR_EACH_ZHF_ORDER(ZONAL_REGISTER)
 #undef ZONAL_REGISTER
     // Interleaved, so that a machine whose speed drifts does not favour one kernel.
     std::vector<std::string> arguments{"zonal-report", "--benchmark_enable_random_interleaving=true",
@@ -290,7 +290,7 @@ void run(const std::string& stats, double seconds) {
 #undef ZONAL_PRINT
 #define ZONAL_PRINT(N) \
     print_rows(N, times, kLobeKernels, measure_lobe_errors<N, float>(), measure_lobe_errors<N, double>());
-    ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_PRINT)
+    ZONAL_FOR_EACH_ZHF_ORDER(ZONAL_PRINT)
 #undef ZONAL_PRINT
 }
 

@@ -52,33 +52,6 @@ struct TensorOrder;
 ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_TEST_TENSOR_ORDER)
 #undef ZONAL_TEST_TENSOR_ORDER
 
-/// Where the lobes of a variant and their weights stand: band l has `count(l)` lobes, the d-th of them with
-/// weight `weight(l, d)` and direction `direction(l, d)`.
-template <int N>
-struct SharedLayout {
-    static constexpr int kOrder = N, kDirections = 2 * N - 1, kWeights = N * N;
-    static constexpr const char* kPrefix = "";
-    static int count(int l) { return 2 * l + 1; }
-    static int weight(int l, int d) { return l * l + d; }
-    static int direction(int, int d) { return d; }
-};
-template <int N>
-struct RingLayout {
-    static constexpr int kOrder = N, kDirections = 2 * N - 1, kWeights = N * (2 * N - 1);
-    static constexpr const char* kPrefix = "stable::";
-    static int count(int) { return 2 * N - 1; }
-    static int weight(int l, int d) { return l * (2 * N - 1) + d; }
-    static int direction(int, int d) { return d; }
-};
-template <int N>
-struct PerBandLayout {
-    static constexpr int kOrder = N, kDirections = N * N, kWeights = N * N;
-    static constexpr const char* kPrefix = "per_band::";
-    static int count(int l) { return 2 * l + 1; }
-    static int weight(int l, int d) { return l * l + d; }
-    static int direction(int l, int d) { return l * l + d; }
-};
-
 #define ZONAL_TEST_LOBE_KERNELS(place)               \
     template <class T>                               \
     static void lobes(const T* R, T* directions) {   \
@@ -102,35 +75,18 @@ struct PerBandLayout {
         place::rotate_zhf(R, f, out);                        \
     }
 
-/// The lobe kernels of the variants, for the orders that have them.
+/// The kernels of shared lobes, for the orders that have all of them.
 template <int N>
 struct LobeOrder;
-template <int N>
-struct StableOrder;
-template <int N>
-struct PerBandOrder;
 
-#define ZONAL_TEST_LOBE_ORDER(N)                  \
-    template <>                                   \
-    struct LobeOrder<N> : SharedLayout<N> {       \
-        ZONAL_TEST_LOBE_KERNELS(order##N)         \
-        ZONAL_TEST_ROTATE_ZHF(order##N)           \
-    };                                            \
-    template <>                                   \
-    struct StableOrder<N> : RingLayout<N> {       \
-        ZONAL_TEST_LOBE_KERNELS(order##N::stable) \
-        ZONAL_TEST_ROTATE_ZHF(order##N::stable)   \
+#define ZONAL_TEST_LOBE_ORDER(N)          \
+    template <>                           \
+    struct LobeOrder<N> {                 \
+        ZONAL_TEST_LOBE_KERNELS(order##N) \
+        ZONAL_TEST_ROTATE_ZHF(order##N)   \
     };
-ZONAL_FOR_EACH_LOBE_ORDER(ZONAL_TEST_LOBE_ORDER)
+ZONAL_FOR_EACH_ZHF_ORDER(ZONAL_TEST_LOBE_ORDER)
 #undef ZONAL_TEST_LOBE_ORDER
-
-#define ZONAL_TEST_PER_BAND_ORDER(N)                \
-    template <>                                     \
-    struct PerBandOrder<N> : PerBandLayout<N> {     \
-        ZONAL_TEST_LOBE_KERNELS(order##N::per_band) \
-    };
-ZONAL_FOR_EACH_PER_BAND_ORDER(ZONAL_TEST_PER_BAND_ORDER)
-#undef ZONAL_TEST_PER_BAND_ORDER
 #undef ZONAL_TEST_LOBE_KERNELS
 #undef ZONAL_TEST_ROTATE_ZHF
 
