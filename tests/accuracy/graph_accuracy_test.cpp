@@ -53,8 +53,9 @@ TEST_P(GraphAccuracy, measured_bounds_are_within_derived_ones) {
     const auto bounds = published_bounds(built_order(GetParam()));
     for (const auto& [kernel, bound] : bounds) {
         if (bound.float_derived.empty()) continue;
-        const auto expect_within = [&](const std::string& measured, const std::string& derived) {
-            EXPECT_LE(std::stod(measured), std::stod(derived)) << kernel;
+        const auto expect_within = [&, name = kernel](const std::string& measured,
+                                                      const std::string& derived) {
+            EXPECT_LE(std::stod(measured), std::stod(derived)) << name;
         };
         expect_within(bound.float_text, bound.float_derived);
         expect_within(bound.double_text, bound.double_derived);
