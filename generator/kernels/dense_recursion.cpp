@@ -88,9 +88,9 @@ ZONAL_INLINE void outer_row(int l, int m, int from, int to, const T* r,
         rows[k] = before + (terms[k].row + l - 1) * (2 * l - 1) + l - 1;
     }
     const auto sum = [&](const T* parts, int n) {
-        T total = parts[4] * rows[4][n];
-        for (int k = 3; k >= 0; --k) total = fma(parts[k], rows[k][n], total);
-        return total;
+        const T from_d = fma(parts[3], rows[3][n], parts[4] * rows[4][n]);
+        const T from_c = fma(parts[2], rows[2][n], from_d);
+        return fma(parts[0], rows[0][n], fma(parts[1], rows[1][n], from_c));
     };
     for (int n = from; n <= to; ++n) {
         row[n] = factors[n] * (sum(plus, n - 1) - sum(minus, 1 - n));
