@@ -13,8 +13,8 @@ struct DerivedBound {
     double apart = 0;  ///< a product and a sum for each
 };
 
-/// Analyses the roundings of a kernel of R and f. None for kernels with a quotient or a root, of other inputs,
-/// or without a signal.
+/// Analyses the roundings of a kernel of R and f. None for kernels with a quotient or a root, of other
+/// inputs, or without a signal.
 ///
 /// One pass over the graph. With |R_ij| <= 1, for a rotation scalar s: |s| <= M and |computed s - s| <= E u;
 /// for a signal value v = sum_j c_j f_j: |c_j| <= m_j and |computed v - v| <= u sum_j e_j |f_j|. Every

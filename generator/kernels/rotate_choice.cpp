@@ -99,8 +99,9 @@ Kernel make_rotate(const std::vector<Kernel>& kernels, const RotateChoice& choic
     rotate.for_channels = choice.channels == choice.one ? "" : choice.channels;
     rotate.needs_proper_rotation = one.needs_proper_rotation || channels.needs_proper_rotation;
     const auto details = rotate.summary.find('\n');
-    rotate.summary = fmt::format("What to call: the fastest exact rotation with at most five times the least error,\n{}.{}", choice.one,
-                                 rotate.summary.substr(details));
+    rotate.summary = fmt::format(
+        "What to call: the fastest exact rotation with at most five times the least error,\n{}.{}",
+        choice.one, rotate.summary.substr(details));
     return rotate;
 }
 

@@ -135,12 +135,15 @@ std::vector<accuracy::Contestant<T>> in_all_arithmetics(const OrderKernels& orde
         // Without quotients and roots they do what fused and apart do.
         std::set<std::string> inexact;
         for (const graph::Kernel& kernel : order.kernels)
-            if (has_quotient_or_root(kernel)) inexact.insert(kernel.name == "prepare" ? "apply" : kernel.full_name());
-        const auto add_allowed = [&](const std::string& base, std::vector<accuracy::Contestant<T>> contestants) {
+            if (has_quotient_or_root(kernel))
+                inexact.insert(kernel.name == "prepare" ? "apply" : kernel.full_name());
+        const auto add_allowed = [&](const std::string& base,
+                                     std::vector<accuracy::Contestant<T>> contestants) {
             std::erase_if(contestants, [&](const auto& some) { return !inexact.contains(some.name); });
             add(kAllowed + base, std::move(contestants));
         };
-        add_allowed(", fused", graph_contestants<T, Allowed<graph::Fused>>(order.order, order.kernels, excess));
+        add_allowed(", fused",
+                    graph_contestants<T, Allowed<graph::Fused>>(order.order, order.kernels, excess));
         add_allowed(", apart", graph_contestants<T, Allowed<Apart>>(order.order, order.kernels, excess));
     }
     return all;

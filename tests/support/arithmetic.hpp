@@ -20,9 +20,9 @@ struct Apart : graph::Fused {
     }
 };
 
-/// What Vulkan and GLSL allow in float beside that ("Precision and Operation of SPIR-V Instructions"): quotients
-/// off by 2.5 ulp, and roots, which are 1 / inversesqrt(x), by the 2 ulp of that and those of the division. Off
-/// by all of it, up or down as the bits of the result say, so that runs repeat.
+/// What Vulkan and GLSL allow in float beside that ("Precision and Operation of SPIR-V Instructions"):
+/// quotients off by 2.5 ulp, and roots, which are 1 / inversesqrt(x), by the 2 ulp of that and those of the
+/// division. Off by all of it, up or down as the bits of the result say, so that runs repeat.
 template <class Base>
 struct Allowed : Base {
     static float divide(float a, float b) { return off_by(a / b, 2.5f); }
