@@ -1,6 +1,7 @@
 #include "apps/emit_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -216,7 +217,8 @@ void check_kernels(emit::Unit unit, const OrderKernels& order, const std::string
     std::set<std::string> missing = unit.wanted;
     for (const std::string& name : kernels_of(unit, files)) missing.erase(name);
     if (missing.empty()) return;
-    unit.wanted.clear();
+    for (const graph::Kernel& kernel : unit.kernels) unit.wanted.insert(emit::plain_name(kernel));
+    unit.wanted.insert(kernels::kTailoredName);
     std::string known;
     for (const std::string& name : kernels_of(unit, languages().at(language).print(unit, order, {})))
         known += (known.empty() ? "" : ", ") + name;
@@ -258,6 +260,7 @@ void run(const EmitOptions& options) {
     TableShelf shelf = project_tables();
     Files all;
     std::set<std::string> paths;  // orders share files
+    std::vector<std::string> notices;
     bool is_table_used = options.table.empty();
     for (const auto& [number, names] : jobs_of(options)) {
         const OrderKernels order = build_order_kernels(shelf, number, options.table);
@@ -269,6 +272,12 @@ void run(const EmitOptions& options) {
             };
             Files files = language.print(unit, order, options);
             check_kernels(unit, order, name, files);
+            const std::vector<std::string> left_out = emit::kernels_left_out(unit);
+            if (name == "cpp" && !left_out.empty())
+                notices.push_back(
+                    fmt::format("{}: left out, since compilers take long for them: {}; write them "
+                                "by --kernels",
+                                unit.name, fmt::join(left_out, ", ")));
             for (const std::string& kernel : kernels_of(unit, files))
                 is_table_used = is_table_used || is_made_of_chosen(order, kernel);
             for (emit::File& file : files) {
@@ -282,6 +291,7 @@ void run(const EmitOptions& options) {
             fmt::format("--table: found {}, of which no kernel that would be written is made; "
                         "wanted kernels of lobes too, such as resample of C++, or no table",
                         options.table));
+    for (const std::string& notice : notices) fmt::print(stderr, "{}\n", notice);
     for (const emit::File& file : all) {
         write_file_atomically(file.path, file.content);
         fmt::print("{}\n", program::shown_on_stdout(file.path));
@@ -316,8 +326,10 @@ void add_emit_command(CLI::App& app) {
                      "their folders (default: generated)")
         ->check(program::not_empty());
     command
-        ->add_option("--kernels", options->kernels,
-                     "these kernels only, such as rotate,blocks, and what they call (default: all)")
+        ->add_option(
+            "--kernels", options->kernels,
+            "these kernels only, such as rotate,blocks, and what they call (default: all that compile in "
+            "seconds)")
         ->check(program::not_empty());
     command->add_flag(
         "--twins", options->has_twins,

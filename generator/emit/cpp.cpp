@@ -54,7 +54,8 @@ const char* const kSupport = R"(#ifndef ZONAL_KERNEL_SUPPORT_HPP
 
 // What T and V of a kernel must have: copies; T, of rotation scalars, construction from a constant,
 // + - * and unary -, and where a kernel says so / and the functions sqrt and copysign; V, of signal
-// values, + - and unary -, and T * V. They may have fma(a, b, c), a b + c by one rounding.
+// values, + - and unary -, and T * V; a vector names its T as V::value_type, where a kernel has no R
+// that tells. They may have fma(a, b, c), a b + c by one rounding.
 // Functions of their own are found by argument-dependent lookup; what follows serves float, double
 // and the rest.
 namespace zonal::kernel_support {
@@ -171,12 +172,14 @@ std::string kernel_comment(const Unit& unit, const Kernel& kernel) {
     if (!kernel.for_channels.empty())
         lines.push_back(
             fmt::format("Where V is not T, a value of several channels, this is {}.", kernel.for_channels));
-    if (has_pole(unit, kernel)) lines.push_back("T needs /, sqrt and copysign too.");
+    const std::string of_channels = has_pole(kernel) ? "" : "Where V is not T: ";
+    if (has_pole(unit, kernel)) lines.push_back(of_channels + "T needs /, sqrt and copysign too.");
+    if (kernel.loops) lines.push_back("T and V need a default constructor too.");
     if (kernel.uses(Kind::rotation) && kernel.inputs[0].name == "R")
         lines.push_back(
             has_pole(unit, kernel)
-                ? "Not for derivatives by R: where R takes z to itself or to -z they come out wrong."
-                : "May be differentiated: T and V may be numbers that carry derivatives.");
+                ? of_channels + "Not for derivatives by R: where R takes z to itself or -z they are wrong."
+                : std::string("May be differentiated: T and V may be numbers that carry derivatives."));
     append(lines, closing_lines(unit, kernel));
     std::string text;
     for (const std::string& line : lines) text += "/// " + line + "\n";
@@ -261,12 +264,12 @@ std::string print_bound(const Unit& unit, const Kernel& kernel) {
     const std::string name = pascal_case(kernel.name);
     return fmt::format(
         "\n/// Largest relative error of {0} for {1} where R is orthonormal,\n"
-        "/// with fused instructions, and what is added for each unit of |R R^T - I|_F.\n"
+        "/// with fused instructions{6}, and what is added for each unit of |R R^T - I|_F.\n"
         "inline constexpr double k{2}BoundFloat = {3};\n"
         "inline constexpr double k{2}BoundDouble = {4};\n"
         "inline constexpr double k{2}Excess = {5};\n",
         kernel.name, domain_text(kernel), name, bound->second.float_text, bound->second.double_text,
-        bound->second.excess_text);
+        bound->second.excess_text, kernel.for_channels.empty() ? "" : ", where V is T");
 }
 
 File print_kernel(const Unit& unit, const Kernel& kernel) {
@@ -331,6 +334,13 @@ File print_support(const graph::Loops& loops) {
 }
 
 }  // namespace
+
+std::vector<std::string> kernels_left_out(const Unit& unit) {
+    std::vector<std::string> names;
+    for (const Kernel& kernel : unit.kernels)
+        if (unit.wanted.empty() && is_too_long(kernel)) names.push_back(plain_name(kernel));
+    return names;
+}
 
 std::vector<File> print_cpp(const Unit& unit) {
     const std::vector<Kernel> kernels = kernels_to_print(unit);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "emit/file.hpp"
@@ -11,5 +12,9 @@ namespace zonal::emit {
 /// zonal/kernel_support.hpp; and where the unit wants all of them zonal/FOLDER.hpp, which includes each.
 /// Throws std::logic_error when a kernel could not be called in place.
 std::vector<File> print_cpp(const Unit& unit);
+
+/// The kernels, by plain name, that it leaves out of all of them: straight lines that compilers take long
+/// for.
+std::vector<std::string> kernels_left_out(const Unit& unit);
 
 }  // namespace zonal::emit

@@ -77,7 +77,8 @@ std::vector<File> print_js(const Unit& unit) {
         if (name != "rotate" && name != "rotate_accurate") continue;
         files.push_back({fmt::format("{}/{}.mjs", unit.folder, name),
                          comment("//", banner_lines(unit, kernel)) + "\n" + shader_comment(unit, kernel) +
-                             print_function(kernel) + print_rgb_function(name, for_channels(unit, kernel))});
+                             "// out may be f, at the same place.\n" + print_function(kernel) +
+                             print_rgb_function(name, for_channels(unit, kernel))});
     }
     return files;
 }

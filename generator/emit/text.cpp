@@ -20,34 +20,58 @@ std::string origin_text(const std::vector<std::string>& derived) {
     return fmt::format("measured x 1.5; derived: {}", fmt::join(derived, ", "));
 }
 
-/// The largest error that is published for a kernel, in the language's arithmetic; |f| is its input's norm.
-std::vector<std::string> bound_lines(const Unit& unit, const graph::Kernel& kernel) {
-    const auto found = unit.bounds.find(kernel.full_name());
-    if (found == unit.bounds.end()) return {"none published: see generator/bounds/README.md"};
-    const Bound& bound = found->second;
-    const std::string domain = domain_text(kernel);
-    const std::string last = fmt::format("relative to |f|; {} |R R^T - I|_F is added", bound.excess_text);
+/// What a kernel's bound is in the language's arithmetic.
+std::vector<std::string> lines_of(const Unit& unit, const Bound& bound, const std::string& domain) {
     switch (unit.arithmetic) {
         case Arithmetic::cpp:
             return {fmt::format("{} (float), {} (double), with fused instructions, for {};", bound.float_text,
                                 bound.double_text, domain),
                     fmt::format("{}, {} without them; {};", bound.float_apart, bound.double_apart,
-                                origin_text({bound.float_apart_derived, bound.double_apart_derived})),
-                    last};
+                                origin_text({bound.float_apart_derived, bound.double_apart_derived}))};
         case Arithmetic::javascript:
             return {fmt::format("{} in double, for {};", bound.double_apart, domain),
-                    fmt::format("{};", origin_text({bound.double_apart_derived})), last};
+                    fmt::format("{};", origin_text({bound.double_apart_derived}))};
         case Arithmetic::shader:
             if (bound.shader == bound.float_apart)
                 return {fmt::format("{} in float, fused or not, for {};", bound.shader, domain),
-                        fmt::format("{};", origin_text({bound.float_apart_derived})), last};
+                        fmt::format("{};", origin_text({bound.float_apart_derived}))};
             return {fmt::format("{} in float, fused or not, for {}, where quotients and roots",
                                 bound.float_apart, domain),
                     fmt::format("round to the nearest, {} where they are off by all that GLSL and Vulkan",
                                 bound.shader),
-                    fmt::format("allow; measured x 1.5; {}", last)};
+                    "allow; measured x 1.5;"};
     }
     return {};
+}
+
+/// The same in few words, where a signal value holds several channels and another kernel runs.
+std::string channels_text(const Unit& unit, const Bound& bound) {
+    switch (unit.arithmetic) {
+        case Arithmetic::cpp:
+            return fmt::format("channels: {} (float), {} (double), {}, {} without; {} is added",
+                               bound.float_text, bound.double_text, bound.float_apart, bound.double_apart,
+                               bound.excess_text);
+        case Arithmetic::javascript:
+            return fmt::format("three channels: {}; {} is added", bound.double_apart, bound.excess_text);
+        case Arithmetic::shader:
+            return fmt::format("three channels: {} and {}; {} is added", bound.float_apart, bound.shader,
+                               bound.excess_text);
+    }
+    return "";
+}
+
+/// The largest error that is published for a kernel; |f| is its input's norm.
+std::vector<std::string> bound_lines(const Unit& unit, const graph::Kernel& kernel) {
+    const auto found = unit.bounds.find(kernel.full_name());
+    if (found == unit.bounds.end()) return {"none published: see generator/bounds/README.md"};
+    std::vector<std::string> lines = lines_of(unit, found->second, domain_text(kernel));
+    lines.push_back(fmt::format("relative to |f|; {} |R R^T - I|_F is added", found->second.excess_text));
+    const auto of_channels = unit.bounds.find(for_channels(unit, kernel).full_name());
+    if (!kernel.for_channels.empty() && of_channels != unit.bounds.end()) {
+        lines.back() += ";";
+        lines.push_back(channels_text(unit, of_channels->second));
+    }
+    return lines;
 }
 
 /// The operations of one vector, and of every further one of the same rotation.
@@ -168,10 +192,6 @@ std::string shader_comment(const Unit& unit, const graph::Kernel& kernel) {
         const graph::Cost cost = graph::count_operations(for_channels(unit, kernel));
         lines.push_back(fmt::format("Three channels: {} once,", counts_text(cost.per_rotation)));
         lines.push_back(fmt::format("  {} for each.", counts_text(cost.per_vector)));
-        const auto bound = unit.bounds.find(for_channels(unit, kernel).full_name());
-        if (bound != unit.bounds.end() && unit.arithmetic == Arithmetic::shader)
-            lines.push_back(fmt::format("  Error: {} and {} in place of those above.",
-                                        bound->second.float_apart, bound->second.shader));
     }
     return comment("//", lines);
 }

@@ -176,6 +176,18 @@ TEST_P(KernelAccuracy, one_determinant_is_stated_for_every_type_of_signal) {
     EXPECT_TRUE(banner::bound(order, "blocks").takes_mirrors);
 }
 
+/// V is often a template's: whoever reads of `rotate` alone must not take one form's bound for the other's.
+TEST_P(KernelAccuracy, the_bound_of_channels_is_stated_where_another_kernel_rotates_them) {
+    const int order = GetParam();
+    if (rotate_of_channels(order) == "rotate") {
+        EXPECT_ANY_THROW(banner::float_bound_of_channels(order, "rotate"));
+        return;
+    }
+    for (const char* kernel : {"rotate", "rotate_fewest"})
+        EXPECT_EQ(banner::float_bound_of_channels(order, kernel),
+                  banner::bound(order, rotate_of_channels(order)).float_bound);
+}
+
 TEST_P(KernelAccuracy, double_is_within_its_bounds) {
     expect_within_bounds<double>(GetParam(), contestants<double>(compiled_order(GetParam())));
 }

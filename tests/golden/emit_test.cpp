@@ -386,6 +386,27 @@ TEST(Emit, banner_of_a_chosen_table_holds_the_command_that_makes_it_again) {
     EXPECT_EQ(read(header), text);
 }
 
+TEST(Emit, what_is_left_out_is_said_and_written_when_named) {
+    const fs::path folder = fresh_folder("long");
+    const Outcome all = zonal_gen(fmt::format("emit --order 12 --language cpp --out '{}'", folder.string()));
+    EXPECT_EQ(all.status, 0);
+    EXPECT_THAT(all.output,
+                HasSubstr("order12: left out, since compilers take long for them: stable_rotate_zhf;"));
+    const fs::path place = folder / "zonal/order12";
+    EXPECT_TRUE(fs::exists(place / "rotate_zhf.hpp"));
+    EXPECT_FALSE(fs::exists(place / "stable_rotate_zhf.hpp"));
+    EXPECT_THAT(read(folder / "zonal/order12.hpp"), Not(HasSubstr("stable_rotate_zhf")));
+    EXPECT_THAT(
+        zonal_gen(fmt::format("emit --order 12 --language cpp --kernels spin --out '{}'", folder.string()))
+            .output,
+        HasSubstr("stable_rotate_zhf"));
+    EXPECT_EQ(zonal_gen(fmt::format("emit --order 12 --language cpp --kernels stable_rotate_zhf --out '{}'",
+                                    folder.string()))
+                  .status,
+              0);
+    EXPECT_TRUE(fs::exists(place / "stable_rotate_zhf.hpp"));
+}
+
 TEST(Emit, a_table_that_no_kernel_is_made_of_is_an_error) {
     const fs::path folder = fresh_folder("idle_table");
     for (const char* what : {"--language js", "--language cpp --kernels rotate,blocks"}) {

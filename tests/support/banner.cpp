@@ -46,6 +46,11 @@ Bound bound(int order, const std::string& kernel) {
             std::stod(match[5]), std::stod(match[6]), match[3].matched};
 }
 
+double float_bound_of_channels(int order, const std::string& kernel) {
+    return std::stod(
+        find(order, kernel, banner_text(order, kernel), R"(channels: ([0-9.e+-]+) \(float\))")[1]);
+}
+
 bool comment_takes_mirrors(int order, const std::string& kernel) {
     const std::string text = text_of(order, kernel), words = "orthonormal rows, det R = +1";
     const std::size_t place = text.find(words);

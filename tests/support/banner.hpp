@@ -15,6 +15,9 @@ struct Bound {
 /// Throws std::runtime_error naming order and kernel where it publishes none.
 Bound bound(int order, const std::string& kernel);
 
+/// What it publishes for a signal of several channels, which another kernel rotates. Throws likewise.
+double float_bound_of_channels(int order, const std::string& kernel);
+
 /// Whether the comment above a function that takes R and f says that det R may be -1. Throws where it says
 /// nothing of det R.
 bool comment_takes_mirrors(int order, const std::string& kernel);

@@ -5,7 +5,9 @@
 //           per extra vector 60 mul 0 add 100 fma 0 other
 // bound   : 9.1e-07 in float, fused or not, for det R = +1, where quotients and roots
 //           round to the nearest, 4.1e-06 where they are off by all that GLSL and Vulkan
-//           allow; measured x 1.5; relative to |f|; 2.00 |R R^T - I|_F is added
+//           allow; measured x 1.5;
+//           relative to |f|; 2.00 |R R^T - I|_F is added;
+//           three channels: 1.2e-06 and 4.2e-06; 2.00 is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
@@ -23,12 +25,13 @@
 //   per extra vector 60 mul 0 add 100 fma 0 other.
 // Error: 9.1e-07 in float, fused or not, for det R = +1, where quotients and roots
 //   round to the nearest, 4.1e-06 where they are off by all that GLSL and Vulkan
-//   allow; measured x 1.5; relative to |f|; 2.00 |R R^T - I|_F is added.
+//   allow; measured x 1.5;
+//   relative to |f|; 2.00 |R R^T - I|_F is added;
+//   three channels: 1.2e-06 and 4.2e-06; 2.00 is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 // Three channels: 28 mul 5 add 26 fma 3 other once,
 //   53 mul 0 add 96 fma 0 other for each.
-//   Error: 1.2e-06 and 4.2e-06 in place of those above.
 void zonal_order5_rotate_fewest(highp float R[9], highp float f[25], out highp float o[25]) {
     highp float r00 = R[0];
     highp float r01 = R[1];

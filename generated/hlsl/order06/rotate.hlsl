@@ -5,7 +5,9 @@
 //           per extra vector 92 mul 0 add 170 fma 0 other
 // bound   : 1.2e-06 in float, fused or not, for det R = +1, where quotients and roots
 //           round to the nearest, 4.0e-06 where they are off by all that GLSL and Vulkan
-//           allow; measured x 1.5; relative to |f|; 2.50 |R R^T - I|_F is added
+//           allow; measured x 1.5;
+//           relative to |f|; 2.50 |R R^T - I|_F is added;
+//           three channels: 1.2e-06 and 4.0e-06; 2.50 is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
@@ -24,12 +26,13 @@
 //   per extra vector 92 mul 0 add 170 fma 0 other.
 // Error: 1.2e-06 in float, fused or not, for det R = +1, where quotients and roots
 //   round to the nearest, 4.0e-06 where they are off by all that GLSL and Vulkan
-//   allow; measured x 1.5; relative to |f|; 2.50 |R R^T - I|_F is added.
+//   allow; measured x 1.5;
+//   relative to |f|; 2.50 |R R^T - I|_F is added;
+//   three channels: 1.2e-06 and 4.0e-06; 2.50 is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 // Three channels: 43 mul 5 add 32 fma 3 other once,
 //   81 mul 0 add 162 fma 0 other for each.
-//   Error: 1.2e-06 and 4.0e-06 in place of those above.
 void zonal_order6_rotate(float R[9], float f[36], out float o[36]) {
     float r00 = R[0];
     float r01 = R[1];

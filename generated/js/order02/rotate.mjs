@@ -21,6 +21,7 @@
 //   measured x 1.5; derived: 9.5e-16;
 //   relative to |f|; 0.55 |R R^T - I|_F is added.
 // Source: low bands as tensors, contracted with the rows of R.
+// out may be f, at the same place.
 export function rotate(R, f, out, fAt = 0, outAt = 0) {
   const r00 = R[0];
   const r01 = R[1];

@@ -5,7 +5,8 @@
 //           per extra vector 131 mul 0 add 265 fma 0 other
 // bound   : 1.9e-15 in double, for det R = +1;
 //           measured x 1.5;
-//           relative to |f|; 3.00 |R R^T - I|_F is added
+//           relative to |f|; 3.00 |R R^T - I|_F is added;
+//           three channels: 1.9e-15; 3.00 is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
@@ -22,11 +23,13 @@
 //   per extra vector 131 mul 0 add 265 fma 0 other.
 // Error: 1.9e-15 in double, for det R = +1;
 //   measured x 1.5;
-//   relative to |f|; 3.00 |R R^T - I|_F is added.
+//   relative to |f|; 3.00 |R R^T - I|_F is added;
+//   three channels: 1.9e-15; 3.00 is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 // Three channels: 62 mul 8 add 34 fma 3 other once,
 //   120 mul 0 add 257 fma 0 other for each.
+// out may be f, at the same place.
 export function rotate(R, f, out, fAt = 0, outAt = 0) {
   const r00 = R[0];
   const r01 = R[1];

@@ -22,6 +22,7 @@
 //   relative to |f|; 4.25 |R R^T - I|_F is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Ivanic and Ruedenberg 1996, eqs. 6.3, 7.1, 8.1, with the erratum of 1998.
+// out may be f, at the same place.
 export function rotate_accurate(R, f, out, fAt = 0, outAt = 0) {
   const r00 = R[0];
   const r01 = R[1];

@@ -5,7 +5,8 @@
 //           per extra vector 31 mul 0 add 50 fma 0 other
 // bound   : 1.5e-06 in float, fused or not, for det R = +1, where quotients and roots
 //           round to the nearest, 1.3e-05 where they are off by all that GLSL and Vulkan
-//           allow; measured x 1.5; relative to |f|; 1.50 |R R^T - I|_F is added
+//           allow; measured x 1.5;
+//           relative to |f|; 1.50 |R R^T - I|_F is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
@@ -18,7 +19,8 @@
 //   per extra vector 31 mul 0 add 50 fma 0 other.
 // Error: 1.5e-06 in float, fused or not, for det R = +1, where quotients and roots
 //   round to the nearest, 1.3e-05 where they are off by all that GLSL and Vulkan
-//   allow; measured x 1.5; relative to |f|; 1.50 |R R^T - I|_F is added.
+//   allow; measured x 1.5;
+//   relative to |f|; 1.50 |R R^T - I|_F is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 fn zonal_order4_apply(scalars: array<f32, 34>, f: array<f32, 16>) -> array<f32, 16> {

@@ -5,7 +5,9 @@
 //           per extra vector 34 mul 0 add 52 fma 0 other
 // bound   : 1.6e-06 in float, fused or not, for det R = +1, where quotients and roots
 //           round to the nearest, 1.3e-05 where they are off by all that GLSL and Vulkan
-//           allow; measured x 1.5; relative to |f|; 1.50 |R R^T - I|_F is added
+//           allow; measured x 1.5;
+//           relative to |f|; 1.50 |R R^T - I|_F is added;
+//           three channels: 1.6e-06 and 1.3e-05; 1.50 is added
 // source  : low bands as tensors, contracted with the rows of R
 //           Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles
 
@@ -22,12 +24,13 @@
 //   per extra vector 34 mul 0 add 52 fma 0 other.
 // Error: 1.6e-06 in float, fused or not, for det R = +1, where quotients and roots
 //   round to the nearest, 1.3e-05 where they are off by all that GLSL and Vulkan
-//   allow; measured x 1.5; relative to |f|; 1.50 |R R^T - I|_F is added.
+//   allow; measured x 1.5;
+//   relative to |f|; 1.50 |R R^T - I|_F is added;
+//   three channels: 1.6e-06 and 1.3e-05; 1.50 is added.
 // Source: low bands as tensors, contracted with the rows of R.
 // Source: Pinchon and Hoggan 2007, section 4: Z(a) X Z(b) X^T Z(g), here without angles.
 // Three channels: 14 mul 5 add 18 fma 3 other once,
 //   31 mul 0 add 50 fma 0 other for each.
-//   Error: 1.6e-06 and 1.3e-05 in place of those above.
 fn zonal_order4_rotate(R: array<f32, 9>, f: array<f32, 16>) -> array<f32, 16> {
     var out: array<f32, 16>;
     let r00 = R[0];

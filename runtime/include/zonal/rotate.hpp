@@ -20,7 +20,7 @@ ZONAL_API std::span<const int> compiled_orders();
 /// Errors   : zonal::Error when the order is not compiled in, a span has the wrong length, or the spans
 ///            overlap in part; `out` is then untouched.
 /// Accuracy and cost: those of `zonal::orderN::rotate` (of three channels: `rotate_channels`, where there is
-/// one), see zonal/orderNN/rotate.hpp. The bounds hold without fused instructions too.
+/// one), see zonal/orderNN/rotate.hpp, which has bounds with fused instructions and without.
 ZONAL_API void rotate(int order, const RotationMatrix<float>& rotation, std::span<const float> in,
                       std::span<float> out);
 ZONAL_API void rotate(int order, const RotationMatrix<double>& rotation, std::span<const double> in,

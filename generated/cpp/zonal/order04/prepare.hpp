@@ -19,7 +19,7 @@ namespace zonal::order4 {
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or -z they are wrong.
 /// Cost: 17 mul 5 add 18 fma 3 other;
 ///   per extra vector 0 mul 0 add 0 fma 0 other.
 /// Source: low bands as tensors, contracted with the rows of R.

@@ -30,7 +30,7 @@ inline constexpr double kRotateChannelsExcess = 2.00;
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or -z they are wrong.
 /// Cost: 81 mul 5 add 122 fma 3 other;
 ///   per extra vector 53 mul 0 add 96 fma 0 other.
 /// Error: 1.1e-06 (float), 2.0e-15 (double), with fused instructions, for det R = +1;

@@ -30,7 +30,7 @@ inline constexpr double kRotateChannelsExcess = 4.50;
 /// Precondition: det R = +1. A mirror is the rotation -R and then a change of sign in the
 /// odd bands.
 /// T needs /, sqrt and copysign too.
-/// Not for derivatives by R: where R takes z to itself or to -z they come out wrong.
+/// Not for derivatives by R: where R takes z to itself or -z they are wrong.
 /// Cost: 389 mul 11 add 765 fma 3 other;
 ///   per extra vector 271 mul 0 add 714 fma 0 other.
 /// Error: 1.4e-06 (float), 2.6e-15 (double), with fused instructions, for det R = +1;
