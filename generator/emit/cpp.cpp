@@ -54,8 +54,8 @@ const char* const kSupport = R"(#ifndef ZONAL_KERNEL_SUPPORT_HPP
 
 // What T and V of a kernel must have: copies; T, of rotation scalars, construction from a constant,
 // + - * and unary -, and where a kernel says so / and the functions sqrt and copysign; V, of signal
-// values, + - and unary -, and T * V; a vector names its T as V::value_type, where a kernel has no R
-// that tells. They may have fma(a, b, c), a b + c by one rounding.
+// values, + - and unary -, and T * V; a vector names its T as V::value_type, where a kernel has no
+// R that tells. They may have fma(a, b, c), a b + c by one rounding.
 // Functions of their own are found by argument-dependent lookup; what follows serves float, double
 // and the rest.
 namespace zonal::kernel_support {
