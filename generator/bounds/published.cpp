@@ -32,6 +32,8 @@ std::string rounded_up(double bound) {
 /// A derived bound that is two hundred times what was measured tells nobody anything: none then.
 Bound with_derived(Bound bound, const graph::Kernel& kernel) {
     constexpr double kFloat = 0x1p-24, kDouble = 0x1p-53, kMost = 200;
+    constexpr int kLargestGraph = 2000;  // others take seconds, and their bounds grow with every band
+    if (kernel.graph.size() > kLargestGraph) return bound;
     const std::optional<DerivedBound> derived = derived_bound(kernel);
     if (!derived || derived->apart * kFloat > kMost * std::stod(bound.float_text)) return bound;
     bound.float_derived = rounded_up(derived->fused * kFloat);

@@ -25,8 +25,8 @@ const char* const kLoops = R"(#if defined(__GNUC__) || defined(_MSC_VER)
 template <class T>
 using constant_of = std::conditional_t<is_single<T>::value, float, double>;
 
-// Band 1 by orders -1, 0, 1, that is y, z, x: entry (i, j) of a block at r[3 (i + 1) + j + 1].
-// A row of band l is the sum of five rows of band l - 1 times these: row index and factor.
+// A row of band l is a sum of five rows of band l - 1, each times a factor and row i of band 1,
+// whose entries are r[3 (i + 1) + j + 1] for orders i, j = -1, 0, 1, that is y, z, x.
 template <class C>
 struct RowOfBandBefore {
     int i, row;
