@@ -142,7 +142,7 @@ std::vector<TablePointer> tables_of(const graph::Kernel& kernel, const OrderTabl
 void add_rotate(emit::Unit& unit, const OrderKernels& order) {
     using enum kernels::Processor;
     const kernels::Processor processor = unit.arithmetic == emit::Arithmetic::shader ? gpu : cpu;
-    const kernels::RotateChoice choice = chosen_rotate(order, processor);
+    const kernels::RotateChoice choice = chosen_rotate(order, unit.bounds, processor);
     unit.kernels.insert(unit.kernels.begin(), kernels::make_rotate(order.kernels, choice));
     unit.bounds["rotate"] = unit.bounds.at(choice.one);
 }
@@ -255,6 +255,14 @@ fs::path folder_of(const EmitOptions& options, const std::string& language) {
     return fs::path(options.out.empty() ? "generated" : options.out) / language;
 }
 
+void note_left_out(const emit::Unit& unit, std::vector<std::string>& notices) {
+    const std::vector<std::string> left_out = emit::kernels_left_out(unit);
+    if (left_out.empty()) return;
+    notices.push_back(
+        fmt::format("{}: left out, since compilers take long for them: {}; write them by --kernels",
+                    unit.name, fmt::join(left_out, ", ")));
+}
+
 /// All files are made before the first is written: a mistake leaves none of them behind.
 void run(const EmitOptions& options) {
     TableShelf shelf = project_tables();
@@ -272,12 +280,7 @@ void run(const EmitOptions& options) {
             };
             Files files = language.print(unit, order, options);
             check_kernels(unit, order, name, files);
-            const std::vector<std::string> left_out = emit::kernels_left_out(unit);
-            if (name == "cpp" && !left_out.empty())
-                notices.push_back(
-                    fmt::format("{}: left out, since compilers take long for them: {}; write them "
-                                "by --kernels",
-                                unit.name, fmt::join(left_out, ", ")));
+            if (name == "cpp") note_left_out(unit, notices);
             for (const std::string& kernel : kernels_of(unit, files))
                 is_table_used = is_table_used || is_made_of_chosen(order, kernel);
             for (emit::File& file : files) {

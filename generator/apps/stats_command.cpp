@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bounds/chosen_rotate.hpp"
+#include "bounds/published.hpp"
 #include "graph/call_time.hpp"
 #include "graph/counts.hpp"
 #include "graph/schedule.hpp"
@@ -112,9 +113,10 @@ Json to_json(const OrderKernels& order) {
     }
     if (!tables.per_band.empty()) json["per_band"] = to_json(tables.per_band);
     json["methods"] = methods_to_json(order.order, order.plans);
-    const kernels::RotateChoice on_cpu = chosen_rotate(order, kernels::Processor::cpu);
+    const std::map<std::string, Bound> bounds = published_bounds(order);
+    const kernels::RotateChoice on_cpu = chosen_rotate(order, bounds, kernels::Processor::cpu);
     json["rotate"] = {{"cpu", to_json(on_cpu)},
-                      {"gpu", to_json(chosen_rotate(order, kernels::Processor::gpu))}};
+                      {"gpu", to_json(chosen_rotate(order, bounds, kernels::Processor::gpu))}};
     Json& counted = json["kernels"];
     counted["rotate"] = to_json(kernels::make_rotate(order.kernels, on_cpu));
     for (const graph::Kernel& kernel : order.kernels) counted[kernel.full_name()] = to_json(kernel);

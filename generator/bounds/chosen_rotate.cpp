@@ -1,12 +1,11 @@
 #include "bounds/chosen_rotate.hpp"
 
-#include "bounds/published.hpp"
-
 namespace zonal {
 
-kernels::RotateChoice chosen_rotate(const OrderKernels& order, kernels::Processor processor) {
+kernels::RotateChoice chosen_rotate(const OrderKernels& order, const std::map<std::string, Bound>& published,
+                                    kernels::Processor processor) {
     std::map<std::string, kernels::ErrorBounds> bounds;
-    for (const auto& [kernel, bound] : published_bounds(order)) {
+    for (const auto& [kernel, bound] : published) {
         if (processor == kernels::Processor::gpu)
             bounds[kernel] = {std::stod(bound.float_apart), 0};
         else

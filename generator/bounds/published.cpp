@@ -23,12 +23,6 @@ namespace {
         path, field, found, wanted));
 }
 
-/// Two digits, rounded up.
-std::string rounded_up(double bound) {
-    const double unit = std::pow(10.0, std::floor(std::log10(bound)) - 1);
-    return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
-}
-
 /// A derived bound that is two hundred times what was measured tells nobody anything: none then.
 Bound with_derived(Bound bound, const graph::Kernel& kernel) {
     constexpr double kFloat = 0x1p-24, kDouble = 0x1p-53, kMost = 200;
@@ -44,6 +38,11 @@ Bound with_derived(Bound bound, const graph::Kernel& kernel) {
 }
 
 }  // namespace
+
+std::string rounded_up(double bound) {
+    const double unit = std::pow(10.0, std::floor(std::log10(bound)) - 1);
+    return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
+}
 
 std::filesystem::path bounds_file() { return (tables_folder() / "../bounds/bounds.json").lexically_normal(); }
 

@@ -18,6 +18,9 @@ struct MeasuredBound {
     Bound bound;                       ///< what is measured of it
 };
 
+/// A bound as it is published: two digits, rounded up.
+std::string rounded_up(double bound);
+
 /// The project's own file: `bounds/bounds.json` beside the folder of tables.
 std::filesystem::path bounds_file();
 

@@ -21,7 +21,7 @@ namespace {
 
 /// Within the bounds that the header publishes for the type.
 template <class T>
-void expect_within_bounds(double rotate_bound, double apply_bound, double accurate_bound) {
+void expect_within_bounds(double rotate_bound, double apply_bound, double zhf_bound, double accurate_bound) {
     constexpr int kOrder = 12;
     // The oracle's time grows as order^4.
     constexpr int kRandomRotations = 3, kThinning = 1000;
@@ -31,13 +31,14 @@ void expect_within_bounds(double rotate_bound, double apply_bound, double accura
         prepare(R, scalars);
         apply(scalars, f, out);
     };
-    const double bounds[] = {rotate_bound, apply_bound, accurate_bound};
+    const double bounds[] = {rotate_bound, apply_bound, zhf_bound, accurate_bound};
     std::vector<accuracy::Contestant<T>> kernels{
         {"rotate", [](const T* R, const T* f, T* out) { rotate(R, f, out); }, kRotateExcess},
         {"apply", halves, kApplyExcess},
+        {"rotate_zhf", [](const T* R, const T* f, T* out) { rotate_zhf(R, f, out); }, kRotateZhfExcess},
         {"rotate_accurate", [](const T* R, const T* f, T* out) { rotate_accurate(R, f, out); },
          kRotateAccurateExcess}};
-    for (std::size_t k = 0; k < 2; ++k) kernels[k] = accuracy::with_mirrors(kOrder, kernels[k]);
+    for (std::size_t k = 0; k < 3; ++k) kernels[k] = accuracy::with_mirrors(kOrder, kernels[k]);
     const auto worst = accuracy::worst_errors<T>(
         oracle::Rotation(kOrder), accuracy::problems<T>(kOrder, kRandomRotations, kThinning, kSeed), kernels);
     for (std::size_t k = 0; k < kernels.size(); ++k)
@@ -45,11 +46,13 @@ void expect_within_bounds(double rotate_bound, double apply_bound, double accura
 }
 
 TEST(HighOrder, float_is_within_its_bounds) {
-    expect_within_bounds<float>(kRotateBoundFloat, kApplyBoundFloat, kRotateAccurateBoundFloat);
+    expect_within_bounds<float>(kRotateBoundFloat, kApplyBoundFloat, kRotateZhfBoundFloat,
+                                kRotateAccurateBoundFloat);
 }
 
 TEST(HighOrder, double_is_within_its_bounds) {
-    expect_within_bounds<double>(kRotateBoundDouble, kApplyBoundDouble, kRotateAccurateBoundDouble);
+    expect_within_bounds<double>(kRotateBoundDouble, kApplyBoundDouble, kRotateZhfBoundDouble,
+                                 kRotateAccurateBoundDouble);
 }
 
 class Loops : public testing::Test {
@@ -68,6 +71,10 @@ class Loops : public testing::Test {
 TEST_F(Loops, may_write_over_their_input) {
     std::vector<double> in_place = f_;
     rotate_accurate(R_.data(), in_place.data(), in_place.data());
+    EXPECT_EQ(in_place, turned_);
+    rotate_zhf(R_.data(), f_.data(), turned_.data());
+    in_place = f_;
+    rotate_zhf(R_.data(), in_place.data(), in_place.data());
     EXPECT_EQ(in_place, turned_);
 }
 

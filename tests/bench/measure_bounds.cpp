@@ -195,12 +195,6 @@ std::map<std::string, double> worst_of_turns(const OrderKernels& order, const st
         static_cast<std::int64_t>(kOperationsOfTurns / operations), options.seed);
 }
 
-/// Two digits, rounded up.
-std::string rounded_up(double bound) {
-    const double unit = std::pow(10.0, std::floor(std::log10(bound)) - 1);
-    return fmt::format("{:.1e}", std::ceil(bound / unit) * unit);
-}
-
 void raise(std::string& bound, double least) {
     if (std::stod(bound) < least) bound = rounded_up(least);
 }

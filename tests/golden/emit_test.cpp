@@ -12,6 +12,9 @@
 #include <map>
 #include <sstream>
 
+#include "bounds/published.hpp"
+#include "support/built_order.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -384,6 +387,31 @@ TEST(Emit, banner_of_a_chosen_table_holds_the_command_that_makes_it_again) {
                   .status,
               0);
     EXPECT_EQ(read(header), text);
+}
+
+/// Of a kernel with quotients and roots, and of one without: what the file of a language says first of
+/// errors.
+TEST(Emit, each_language_publishes_the_bounds_of_its_own_arithmetic) {
+    const auto bounds = zonal::published_bounds(zonal::built_order(4));
+    const auto text_of = [](const char* path) {
+        return read(fs::path(ZONAL_SOURCE_DIR) / "generated" / path);
+    };
+    const zonal::Bound &fewest = bounds.at("rotate_fewest"), &accurate = bounds.at("rotate_accurate");
+    ASSERT_NE(fewest.shader, fewest.float_apart);
+    EXPECT_THAT(
+        text_of("cpp/zonal/order04/rotate_fewest.hpp"),
+        AllOf(HasSubstr(fmt::format("bound   : {} (float), {} (double), with fused", fewest.float_text,
+                                    fewest.double_text)),
+              HasSubstr(fmt::format("{}, {} without them", fewest.float_apart, fewest.double_apart))));
+    for (const char* path : {"glsl/order04/rotate_fewest.glsl", "hlsl/order04/rotate_fewest.hlsl",
+                             "wgsl/order04/rotate_fewest.wgsl", "spirv/order04/rotate_fewest.spvasm"})
+        EXPECT_THAT(text_of(path), AllOf(HasSubstr(fmt::format("bound   : {} in float", fewest.float_apart)),
+                                         HasSubstr(fmt::format("{} where they are off", fewest.shader))))
+            << path;
+    EXPECT_THAT(text_of("glsl/order04/rotate_accurate.glsl"),
+                HasSubstr(fmt::format("bound   : {} in float, fused or not, for", accurate.shader)));
+    EXPECT_THAT(text_of("js/order04/rotate_accurate.mjs"),
+                HasSubstr(fmt::format("bound   : {} in double", accurate.double_apart)));
 }
 
 TEST(Emit, what_is_left_out_is_said_and_written_when_named) {

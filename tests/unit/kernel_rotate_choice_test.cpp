@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bounds/chosen_rotate.hpp"
+#include "bounds/published.hpp"
 #include "kernels/rotations.hpp"
 
 namespace zonal::kernels {
@@ -12,6 +13,10 @@ const OrderKernels& order(int n) {
     return built.at(n);
 }
 
+RotateChoice published_choice(int n, Processor processor) {
+    return chosen_rotate(order(n), published_bounds(order(n)), processor);
+}
+
 /// Every kernel with the same bounds, but for what is said.
 RotateChoice choice_by(int n, Processor processor, const std::map<std::string, ErrorBounds>& said) {
     std::map<std::string, ErrorBounds> bounds = said;
@@ -21,21 +26,21 @@ RotateChoice choice_by(int n, Processor processor, const std::map<std::string, E
 }
 
 TEST(RotateChoice, waits_for_no_division_on_a_cpu_where_it_need_not) {
-    const RotateChoice on_cpu = chosen_rotate(order(4), Processor::cpu);
+    const RotateChoice on_cpu = published_choice(4, Processor::cpu);
     EXPECT_EQ(on_cpu.one, "rotate_tensor");
     EXPECT_EQ(on_cpu.channels, "rotate_channels");
-    EXPECT_EQ(chosen_rotate(order(4), Processor::gpu).one, "rotate_fewest");
+    EXPECT_EQ(published_choice(4, Processor::gpu).one, "rotate_fewest");
 }
 
 TEST(RotateChoice, is_the_fewest_instructions_from_order_5_on) {
     for (const int n : {5, 6, 7, 8, 9, 10})
         for (const Processor processor : {Processor::cpu, Processor::gpu})
-            EXPECT_EQ(chosen_rotate(order(n), processor).one, "rotate_fewest") << n;
+            EXPECT_EQ(published_choice(n, processor).one, "rotate_fewest") << n;
 }
 
 TEST(RotateChoice, has_a_body_of_its_own) {
-    EXPECT_EQ(chosen_rotate(order(3), Processor::cpu).one, "rotate_tensor");  // rotate_fewest forwards to it
-    const graph::Kernel rotate = make_rotate(order(4).kernels, chosen_rotate(order(4), Processor::cpu));
+    EXPECT_EQ(published_choice(3, Processor::cpu).one, "rotate_tensor");  // rotate_fewest forwards to it
+    const graph::Kernel rotate = make_rotate(order(4).kernels, published_choice(4, Processor::cpu));
     EXPECT_EQ(rotate.forwards_to, "rotate_tensor");
     EXPECT_EQ(rotate.for_channels, "rotate_channels");
     EXPECT_TRUE(rotate.needs_proper_rotation);  // three channels do
