@@ -203,7 +203,7 @@ int instructions_of(const Workload& workload, bool is_fused, bool has_blocks) {
     const int prepare = counted([&] { Kernels::prepare(R, scalars); });
     const int apply = counted([&] { Kernels::apply(scalars, f); });
     if (workload.rotation_length > 0 && workload.channels == 1) return once;
-    if (workload.name == "all-rgb" && has_blocks && turns_three_channels_densely(N))
+    if (workload.name == "all-rgb" && has_blocks && turns_channels_densely(N))
         return (N * (4 * N * N - 1) / 3 - 1) * 3 * (is_fused ? 1 : 2);
     return static_cast<int>(workload.channels) * apply + (workload.rotation_length > 0 ? prepare : 0);
 }

@@ -69,7 +69,7 @@ ZONAL_API void from_zonal(Convention convention, int order, std::span<const Rgb<
 
 /// Rotates one signal given in a convention by a matrix given in that convention; the result is in it too.
 /// The function rotates: f'(w) = f(R^T w), where R acts on columns (directx: R = M^T); mirrors are allowed.
-/// in, out  : order^2 values each; the same span, or separate ones.
+/// in, out  : order^2 values each, or 3 order^2, three interleaved channels; the same span, or separate ones.
 /// Errors   : zonal::Error when the convention does not have the order, the order is not among
 ///            compiled_orders(), a span has the wrong length, or the spans overlap in part; `out` is then
 ///            untouched.

@@ -14,7 +14,8 @@ ZONAL_API std::span<const int> compiled_orders();
 /// Rotates one SH vector of the given order (order N: N^2 coefficients, degrees 0 to N-1).
 /// rotation : rotates the function, f'(w) = f(R^T w); mirrors too (det R = -1).
 ///            Precondition: orthonormal within what the caller can bear (see checked_rotation).
-/// in, out  : N^2 values each, index l(l+1)+m, real orthonormal basis, no Condon-Shortley sign, z polar.
+/// in, out  : N^2 values each, index l(l+1)+m, real orthonormal basis, no Condon-Shortley sign, z polar; or
+///            3 N^2, three interleaved channels. Of more vectors or channels see zonal/batch.hpp.
 ///            They may be the same span; they must not overlap in part. No alignment is needed.
 ///            A NaN or infinity stays within its band.
 /// Errors   : zonal::Error when the order is not compiled in, a span has the wrong length, or the spans

@@ -57,8 +57,8 @@ struct AtOnce {
 ZONAL_FOR_EACH_TENSOR_ORDER(ZONAL_TENSOR_KERNEL)
 #undef ZONAL_TENSOR_KERNEL
 
-/// Three interleaved channels of float, all vectors by one rotation: products with dense blocks, which need
-/// no transposition, are faster than `prepare` and `apply` in these orders.
-constexpr bool turns_three_channels_densely(int order) { return 3 <= order && order <= 6; }
+/// Interleaved channels of float, all vectors by one rotation: products with dense blocks, which need no
+/// transposition, are faster than `prepare` and `apply` in these orders.
+constexpr bool turns_channels_densely(int order) { return 3 <= order && order <= 6; }
 
 }  // namespace zonal

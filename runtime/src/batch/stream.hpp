@@ -107,5 +107,34 @@ class Stream {
     std::size_t end_ = 0;   ///< behind the last
 };
 
+/// Where a walk writes, step by step: a stream, or memory as it is.
+template <class T, std::size_t kRoom>
+class Output {
+  public:
+    using Values = Stream<T, kRoom>;
+
+    HWY_INLINE explicit Output(T* out, Values* stream = nullptr) : out_(out), stream_(stream) {}
+
+    /// Where the values of this step are to be put.
+    HWY_INLINE T* room() const { return stream_ != nullptr ? stream_->room() : out_; }
+    /// They have been put there: as many as the next step's are behind these.
+    HWY_INLINE void advance(std::size_t count) {
+        if (stream_ != nullptr) stream_->advance(count);
+        out_ += count;
+    }
+    /// Time for kCount of the values that wait, whole lines, to leave.
+    template <std::size_t kCount>
+    HWY_INLINE void write_some() const {
+        if (HWY_LIKELY(stream_ != nullptr)) stream_->template write_some<kCount>();
+    }
+    HWY_INLINE void finish() const {
+        if (stream_ != nullptr) stream_->finish();
+    }
+
+  private:
+    T* out_;
+    Values* stream_;
+};
+
 }  // namespace
 }  // namespace zonal::batch

@@ -17,6 +17,10 @@ namespace {
 template <class T>
 inline constexpr std::size_t kBlock = kLanes<T> * sizeof(T) < 16 ? 1 : 16 / sizeof(T);
 
+/// Blocks of a register.
+template <class T>
+inline constexpr std::size_t kGroup = kLanes<T> / kBlock<T>;
+
 #if HWY_TARGET == HWY_SCALAR
 
 template <class T>
@@ -150,10 +154,6 @@ HWY_INLINE void read_columns(const T* rows, std::size_t stride, Pack<T>* columns
     }
 }
 
-/// Blocks that are written together: what the registers of all rows hold.
-template <class T>
-inline constexpr std::size_t kGroup = kLanes<T> / kBlock<T>;
-
 template <std::size_t kCount, class T, class Between>
 HWY_INLINE void write_blocks(const Pack<T>* columns, T* rows, std::size_t stride, const Between& between) {
     Lanes<T> blocks[kCount][kBlock<T>];
@@ -190,33 +190,39 @@ HWY_INLINE void write_columns(const Pack<T>* columns, T* rows, std::size_t strid
     }
 }
 
-/// The same where column c is kept in columns[slots[c]] and their number is known at run time only;
-/// count >= kBlock.
+/// Columns in blocks of kBlock that lie anywhere in a row: block b begins at value places[b], and its column
+/// j is kept in columns[slots[b * kBlock + j]]. Blocks may overlap.
+struct Blocks {
+    const unsigned short* places;
+    const unsigned short* slots;
+    std::size_t count;
+    std::size_t touching;  ///< so many from the first on touch
+};
+
 template <class T, class Between>
-HWY_INLINE void read_slots(const T* rows, std::size_t stride, const unsigned short* slots, std::size_t count,
-                           Pack<T>* columns, const Between& between) {
+HWY_INLINE void read_blocks(const T* rows, std::size_t stride, const Blocks& blocks, Pack<T>* columns,
+                            const Between& between) {
     Lanes<T> block[kBlock<T>];
-    for (std::size_t next = 0; next < count; next += kBlock<T>) {
+    for (std::size_t b = 0; b < blocks.count; ++b) {
         between();
-        const std::size_t c = next + kBlock<T> <= count ? next : count - kBlock<T>;
-        load_block(rows + c, stride, block);
-        for (std::size_t j = 0; j < kBlock<T>; ++j) columns[slots[c + j]].lanes = block[j];
+        load_block(rows + blocks.places[b], stride, block);
+        for (std::size_t j = 0; j < kBlock<T>; ++j) columns[blocks.slots[b * kBlock<T> + j]].lanes = block[j];
     }
 }
 
 template <class T, class Between>
-HWY_INLINE void write_slots(const Pack<T>* columns, const unsigned short* slots, std::size_t count, T* rows,
-                            std::size_t stride, const Between& between) {
+HWY_INLINE void write_blocks(const Pack<T>* columns, const Blocks& blocks, T* rows, std::size_t stride,
+                             const Between& between) {
     Pack<T> group[kGroup<T> * kBlock<T>];
-    std::size_t c = 0;
-    for (; c + kGroup<T> * kBlock<T> <= count; c += kGroup<T> * kBlock<T>) {
-        for (std::size_t j = 0; j < kGroup<T> * kBlock<T>; ++j) group[j] = columns[slots[c + j]];
-        write_blocks<kGroup<T> >(group, rows + c, stride, between);
+    std::size_t b = 0;
+    for (; b + kGroup<T> <= blocks.touching; b += kGroup<T>) {
+        for (std::size_t j = 0; j < kGroup<T> * kBlock<T>; ++j)
+            group[j] = columns[blocks.slots[b * kBlock<T> + j]];
+        write_blocks<kGroup<T> >(group, rows + blocks.places[b], stride, between);
     }
-    for (; c < count; c += kBlock<T>) {
-        const std::size_t from = c + kBlock<T> <= count ? c : count - kBlock<T>;
-        for (std::size_t j = 0; j < kBlock<T>; ++j) group[j] = columns[slots[from + j]];
-        write_blocks<1>(group, rows + from, stride, between);
+    for (; b < blocks.count; ++b) {
+        for (std::size_t j = 0; j < kBlock<T>; ++j) group[j] = columns[blocks.slots[b * kBlock<T> + j]];
+        write_blocks<1>(group, rows + blocks.places[b], stride, between);
     }
 }
 

@@ -17,6 +17,9 @@ ZONAL_API void check_order(int order);
 /// Throws zonal::Error unless `length` = order^2; `field` names the span in the message.
 ZONAL_API void check_length(const char* field, int order, std::size_t length);
 
+/// The same; says what takes more than one vector or channel.
+ZONAL_API void check_rotated_length(const char* field, int order, std::size_t length);
+
 [[noreturn]] ZONAL_API void throw_partial_overlap();
 
 /// Throws zonal::Error unless the spans are the same or apart.

@@ -22,6 +22,8 @@
 #include <numbers>
 
 #include "checks.hpp"
+#include "colours.hpp"
+#include "convention_places.hpp"
 #include "text.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotate.hpp"
@@ -83,27 +85,23 @@ const Definition& definition_of(Convention convention) {
                  .next_step = "use convention_from_name to read a convention"});
 }
 
-template <class V>
-void check_call(const Definition& definition, int order, std::span<const V> in, std::span<V> out) {
-    if (order < definition.min_order || order > definition.max_order) {
-        const bool is_single = definition.min_order == definition.max_order;
-        throw Error({.field = joined("order of a signal in the convention ", definition.name),
-                     .found = text_of(order),
-                     .wanted = is_single ? text_of(definition.min_order)
-                                         : joined(definition.min_order, " to ", definition.max_order),
-                     .next_step = "choose an order (number of bands) that the convention has"});
-    }
-    check_length("in", order, in.size());
-    check_length("out", order, out.size());
-    check_no_partial_overlap(in, out);
+void check_has_order(const Definition& definition, int order) {
+    if (order >= definition.min_order && order <= definition.max_order) return;
+    const bool is_single = definition.min_order == definition.max_order;
+    throw Error({.field = joined("order of a signal in the convention ", definition.name),
+                 .found = text_of(order),
+                 .wanted = is_single ? text_of(definition.min_order)
+                                     : joined(definition.min_order, " to ", definition.max_order),
+                 .next_step = "choose an order (number of bands) that the convention has"});
 }
 
-/// theirs[j] = scale * ours[index], up to the polar axis: a half turn about z is in the scale, as (-1)^m.
-struct Place {
-    int index = 0;
-    double scale = 1;
-    double inverse = 1;
-};
+template <class V>
+void check_call(const Definition& definition, int order, std::span<const V> in, std::span<V> out) {
+    check_has_order(definition, order);
+    check_rotated_length("in", order, in.size());
+    check_rotated_length("out", order, out.size());
+    check_no_partial_overlap(in, out);
+}
 
 struct FuMaChannel {
     int index;
@@ -291,6 +289,13 @@ void rotate_within(Convention convention, int order, const RotationMatrix<T>& ro
 
 }  // namespace
 
+std::span<const Place> places_scaled_within_bands(Convention convention, int order) {
+    const Definition& definition = definition_of(convention);
+    check_has_order(definition, order);
+    if (!definition.is_scaled_within_bands) return {};
+    return std::span(layout_of(convention)).first(static_cast<std::size_t>(order) * order);
+}
+
 std::vector<std::string_view> convention_names() {
     std::vector<std::string_view> names;
     for (const Definition& definition : kDefinitions) names.push_back(definition.name);
@@ -358,12 +363,14 @@ void from_zonal(Convention convention, int order, std::span<const Rgb<double>> i
 
 void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,
             std::span<const float> in, std::span<float> out) {
-    rotate_within(convention, order, rotation, in, out);
+    call_with_channels(order, in, out,
+                       [&](auto from, auto to) { rotate_within(convention, order, rotation, from, to); });
 }
 
 void rotate(Convention convention, int order, const RotationMatrix<double>& rotation,
             std::span<const double> in, std::span<double> out) {
-    rotate_within(convention, order, rotation, in, out);
+    call_with_channels(order, in, out,
+                       [&](auto from, auto to) { rotate_within(convention, order, rotation, from, to); });
 }
 
 void rotate(Convention convention, int order, const RotationMatrix<float>& rotation,

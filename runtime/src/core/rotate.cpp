@@ -6,7 +6,9 @@
 #include <array>
 
 #include "checks.hpp"
+#include "colours.hpp"
 #include "text.hpp"
+#include "unchecked.hpp"
 #include "zonal/error.hpp"
 #include "zonal/orders.hpp"
 
@@ -39,30 +41,47 @@ void dispatch(int order, const T* rotation, const V* in, V* out) {
 template <class T, class V>
 void checked_rotate(int order, const RotationMatrix<T>& rotation, std::span<const V> in, std::span<V> out) {
     check_compiled(order);
-    check_length("in", order, in.size());
-    check_length("out", order, out.size());
+    check_rotated_length("in", order, in.size());
+    check_rotated_length("out", order, out.size());
     check_no_partial_overlap(in, out);
-    // Kernels need determinant +1: a mirror is a rotation by -R, then a change of sign in the odd bands.
-    if (!is_mirror(rotation)) return dispatch(order, rotation.data(), in.data(), out.data());
-    T turned[9];
-    for (int i = 0; i < 9; ++i) turned[i] = -rotation.data()[i];
-    dispatch(order, turned, in.data(), out.data());
-    for (int l = 1; l < order; l += 2)
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i) out[i] = -out[i];
+    rotate_unchecked(order, rotation, in.data(), out.data());
+}
+
+template <class T>
+void checked_rotate_values(int order, const RotationMatrix<T>& rotation, std::span<const T> in,
+                           std::span<T> out) {
+    call_with_channels(order, in, out,
+                       [&](auto from, auto to) { checked_rotate(order, rotation, from, to); });
 }
 
 }  // namespace
+
+template <class T, class V>
+void rotate_unchecked(int order, const RotationMatrix<T>& rotation, const V* in, V* out) {
+    // Kernels need determinant +1: a mirror is a rotation by -R, then a change of sign in the odd bands.
+    if (!is_mirror(rotation)) return dispatch(order, rotation.data(), in, out);
+    T turned[9];
+    for (int i = 0; i < 9; ++i) turned[i] = -rotation.data()[i];
+    dispatch(order, turned, in, out);
+    for (int l = 1; l < order; l += 2)
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i) out[i] = -out[i];
+}
+template ZONAL_API void rotate_unchecked(int, const RotationMatrix<float>&, const float*, float*);
+template ZONAL_API void rotate_unchecked(int, const RotationMatrix<double>&, const double*, double*);
+template ZONAL_API void rotate_unchecked(int, const RotationMatrix<float>&, const Rgb<float>*, Rgb<float>*);
+template ZONAL_API void rotate_unchecked(int, const RotationMatrix<double>&, const Rgb<double>*,
+                                         Rgb<double>*);
 
 std::span<const int> compiled_orders() { return kCompiledOrders; }
 
 void rotate(int order, const RotationMatrix<float>& rotation, std::span<const float> in,
             std::span<float> out) {
-    checked_rotate(order, rotation, in, out);
+    checked_rotate_values(order, rotation, in, out);
 }
 
 void rotate(int order, const RotationMatrix<double>& rotation, std::span<const double> in,
             std::span<double> out) {
-    checked_rotate(order, rotation, in, out);
+    checked_rotate_values(order, rotation, in, out);
 }
 
 void rotate(int order, const RotationMatrix<float>& rotation, std::span<const Rgb<float>> in,
