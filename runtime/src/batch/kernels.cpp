@@ -62,9 +62,7 @@ void all(const Job<T>& job) {
         if (job.shape == Shape::interleaved && job.channels < kLeastAcross && job.coefficient_form == nullptr)
             return job.is_dc_apart ? turn_densely<T, N, 1>(job) : turn_densely<T, N, 0>(job);
     Prepared<T, N, Use::all_vectors> turn;
-    Pack<T> R[9];
-    gather_rotations(job, 0, 1, R);
-    turn.take(R, job.form);
+    turn.take(job.form, [&](Pack<T>* R) { gather_rotations(job, 0, 1, R); });
     if (job.shape == Shape::planes) return turn_planar(job, turn);
     is_across(job) ? turn_across(job, turn, 0) : turn_rows(job, turn);
 }

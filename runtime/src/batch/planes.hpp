@@ -124,16 +124,14 @@ void turn_across(const Job<T>& job, const Prepared<T, N, Use::all_vectors>& turn
 /// The same with a rotation each, prepared for a pack of vectors at a time.
 template <class T, int N>
 void turn_across(const Job<T>& job, Prepared<T, N, Use::channels>& turn, std::size_t k) {
-    HWY_ALIGN T scalars[Prepared<T, N, Use::channels>::kScalars * kLanes<T>];
     Prepared<T, N, Use::all_vectors> one;
     for (; k < job.count; k += kLanes<T>) {
         const std::size_t live = job.count - k < kLanes<T> ? job.count - k : kLanes<T>;
         Pack<T> R[9];
         gather_rotations(job, k, live, R);
         take_called(turn, R, job.form);
-        turn.store_scalars(scalars);
         for (std::size_t lane = 0; lane < live; ++lane) {
-            one.broadcast(turn, scalars, lane);
+            one.broadcast(turn, lane);
             turn_channels(job, one, k + lane);
         }
     }

@@ -43,11 +43,18 @@ HWY_INLINE void matrices_of(const Pack<T>* q, RotationForm form, Pack<T>* R) {
 }
 
 template <class T>
-HWY_NOINLINE void bring_to_form(const MatrixForm<T>& form, Pack<T>* R) {
-    Pack<T> given[9];
-    for (int i = 0; i < 9; ++i) given[i] = R[i];
+HWY_NOINLINE void write_in_form(const MatrixForm<T>& form, const Pack<T>* given, Pack<T>* R) {
     for (int i = 0; i < 9; ++i)
         R[i].lanes = hn::Mul(hn::Set(Tag<T>(), form.sign[i]), given[form.from[i]].lanes);
+}
+
+/// Goes by way of copies: R itself can stay in registers then.
+template <class T>
+HWY_INLINE void bring_to_form(const MatrixForm<T>& form, Pack<T>* R) {
+    Pack<T> given[9], moved[9];
+    for (int i = 0; i < 9; ++i) given[i] = R[i];
+    write_in_form(form, given, moved);
+    for (int i = 0; i < 9; ++i) R[i] = moved[i];
 }
 
 /// The rotations of kLanes rows. kAreTouching: without gaps and in our form.

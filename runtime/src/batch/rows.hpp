@@ -41,10 +41,12 @@ class InterleavedBlocks {
     /// Vectors of more channels are turned in groups of kGroupOf, the last of up to kMost: its blocks overlap
     /// one another rather than those of another group, which may be turned and written already.
     static constexpr std::size_t kGroupOf = 4;
-    static constexpr std::size_t kFitting = kMostBytes / (kCoefficients * kLanes<T> * sizeof(T));
-    static constexpr std::size_t kMost = kFitting < 1              ? 1
-                                         : kFitting < 2 * kGroupOf ? kFitting
-                                                                   : 2 * kGroupOf - 1;
+    static constexpr std::size_t kBytes = kCoefficients * kLanes<T> * sizeof(T);  ///< of a channel
+    static constexpr std::size_t kFitting = kMostBytes / 2 / kBytes;
+    static constexpr std::size_t kMost = kFitting >= 2 * kGroupOf - 1 ? 2 * kGroupOf - 1
+                                         : kFitting >= kGroupOf       ? kGroupOf
+                                         : kMostBytes / kBytes >= 3   ? 3
+                                                                      : 1;
 
     /// Whether vectors of so many channels are read and written in blocks.
     static constexpr bool is_for(std::size_t channels) {
@@ -114,8 +116,7 @@ class Rows {
 
     /// Whole packs; returns the number of vectors turned.
     std::size_t turn_packs(Turn& turn) const {
-        if constexpr (kIsStreamed)
-            if (job_.is_streamed && job_.channels <= kMostStreamed) return turn_streamed(turn);
+        if (job_.is_streamed && job_.channels <= kMostStreamed) return turn_streamed(turn);
         return turn_rows(turn, Writer(job_.out));
     }
 
@@ -130,9 +131,10 @@ class Rows {
 
     static constexpr bool kHasOwn = Turn::kUse != Use::all_vectors;  ///< rotations, for each vector one
 
-    /// Two stages of so many channels, and the packs of one step, fit on the stack; four at most.
-    static constexpr std::size_t kFittingStages = kMostBytes / (3 * kWidth * kCoefficients * sizeof(T));
-    static constexpr bool kIsStreamed = kFittingStages > 0;
+    /// Channels of which two stages fit beside the packs of a step: one, up to four.
+    static constexpr std::size_t kLeft =
+        kMost * Interleaved::kBytes < kMostBytes ? kMostBytes - kMost * Interleaved::kBytes : 0;
+    static constexpr std::size_t kFittingStages = kLeft / (2 * Interleaved::kBytes);
     static constexpr std::size_t kMostStreamed = kFittingStages < 1   ? 1
                                                  : kFittingStages < 4 ? kFittingStages
                                                                       : 4;
@@ -206,6 +208,9 @@ class Rows {
     HWY_NOINLINE ZONAL_FLATTEN std::size_t turn_rows(Turn& turn, Writer writer) const {
         const std::size_t in_stride = kIsTouching ? kColumns : job_.in_stride;
         const std::size_t out_stride = kIsTouching ? kColumns : job_.out_stride;
+        const RotationForm form = job_.form;
+        const std::size_t rotations_step =
+            kWidth * (kIsTouching ? rotation_length(form) : job_.rotation_stride);
         const T* in = job_.in;
         const T* rotations = job_.rotations;
         std::size_t k = 0;
@@ -213,14 +218,10 @@ class Rows {
             T* const to = writer.room();
             if constexpr (Turn::kUse == Use::one_channel) {
                 Turn local;  // one of its own in every round stays in registers
-                P R[9];
-                load_rotations<kIsTouching>(job_, rotations, R);
-                local.take(R, job_.form);
+                local.take(form, [&](P* R) { load_rotations<kIsTouching>(job_, rotations, R); });
                 turn_row(local, in, in_stride, to, out_stride, Flow(job_, in, writer));
             } else if constexpr (Turn::kUse == Use::channels) {
-                P R[9];
-                load_rotations<false>(job_, rotations, R);
-                turn.take(R, job_.form);
+                turn.take(form, [&](P* R) { load_rotations<false>(job_, rotations, R); });
                 turn_channels(turn, in, to, Flow(job_, in, writer));
             } else if (kIsTouching || HWY_LIKELY(job_.channels == 1 && job_.coefficient_form == nullptr)) {
                 turn_row(turn, in, in_stride, to, out_stride, Flow(job_, in, writer));
@@ -228,10 +229,8 @@ class Rows {
                 turn_channels(turn, in, to, Flow(job_, in, writer));
             }
             if constexpr (kHasOwn) {
-                const std::size_t step =
-                    kWidth * (kIsTouching ? rotation_length(job_.form) : job_.rotation_stride);
-                if (job_.is_large) fetch_ahead(rotations, step);
-                rotations += step;
+                if (job_.is_large) fetch_ahead(rotations, rotations_step);
+                rotations += rotations_step;
             }
             writer.advance(kWidth * out_stride);
             in += kWidth * in_stride;
@@ -244,6 +243,8 @@ class Rows {
     /// Kernels of higher orders fill it by themselves, and would keep what waits outside of registers.
     template <class Flow>
     HWY_NOINLINE ZONAL_FLATTEN std::size_t turn_nine(Turn& turn, Writer writer) const {
+        const RotationForm form = job_.form;
+        const std::size_t rotations_step = kWidth * rotation_length(form);
         const T* in = job_.in;
         const T* rotations = job_.rotations;
         P turned[kColumns];
@@ -255,12 +256,9 @@ class Rows {
             Flow flow(job_, in, writer);
             Turn own;
             if constexpr (kHasOwn) {
-                P R[9];
-                load_rotations<true>(job_, rotations, R);
-                own.take(R, job_.form);
-                const std::size_t step = kWidth * rotation_length(job_.form);
-                if (job_.is_large) fetch_ahead(rotations, step);
-                rotations += step;
+                own.take(form, [&](P* R) { load_rotations<true>(job_, rotations, R); });
+                if (job_.is_large) fetch_ahead(rotations, rotations_step);
+                rotations += rotations_step;
             }
             P f[kColumns];
             read_columns<kColumns>(in, kColumns, f, [&] { flow.read(); });
@@ -304,7 +302,7 @@ class Rows {
     }
 
     template <class Flow>
-    HWY_NOINLINE void turn_channels(const Turn& turn, const T* in, T* out, Flow flow) const {
+    HWY_INLINE void turn_channels(const Turn& turn, const T* in, T* out, Flow flow) const {
         if (job_.shape == Shape::interleaved) return turn_interleaved(turn, in, out, flow);
         for (std::size_t channel = 0; channel < job_.channels; ++channel) {
             for (std::size_t column = 0; column < kColumns; column += kBlock<T>) flow.read();
@@ -329,7 +327,7 @@ class Rows {
     }
 
     template <class Flow>
-    HWY_NOINLINE void turn_group(const Turn& turn, const Blocks& blocks, std::size_t channels, const T* in,
+    HWY_NOINLINE void turn_group(const Turn& turn, const Blocks blocks, std::size_t channels, const T* in,
                                  T* out, Flow& flow) const {
         P f[kCoefficients * kMost];
         read_blocks(in, job_.in_stride, blocks, f, [&] { flow.read(); });

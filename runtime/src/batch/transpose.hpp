@@ -200,7 +200,7 @@ struct Blocks {
 };
 
 template <class T, class Between>
-HWY_INLINE void read_blocks(const T* rows, std::size_t stride, const Blocks& blocks, Pack<T>* columns,
+HWY_INLINE void read_blocks(const T* rows, std::size_t stride, const Blocks blocks, Pack<T>* columns,
                             const Between& between) {
     Lanes<T> block[kBlock<T>];
     for (std::size_t b = 0; b < blocks.count; ++b) {
@@ -211,7 +211,7 @@ HWY_INLINE void read_blocks(const T* rows, std::size_t stride, const Blocks& blo
 }
 
 template <class T, class Between>
-HWY_INLINE void write_blocks(const Pack<T>* columns, const Blocks& blocks, T* rows, std::size_t stride,
+HWY_INLINE void write_blocks(const Pack<T>* columns, const Blocks blocks, T* rows, std::size_t stride,
                              const Between& between) {
     Pack<T> group[kGroup<T> * kBlock<T>];
     std::size_t b = 0;

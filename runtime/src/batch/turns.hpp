@@ -15,9 +15,9 @@
 namespace zonal::batch {
 namespace {
 
-/// Bytes on the stack that one step of a walk may take, so that a call stays within what zonal/batch.hpp
-/// states.
-constexpr std::size_t kMostBytes = 49152;
+/// Bytes on the stack for the values of one step of a walk: with what kernels themselves take, a call stays
+/// within what zonal/batch.hpp states.
+constexpr std::size_t kMostBytes = 32768;
 
 /// More than this much code is better called than repeated.
 constexpr int kLargestInlined = 6;
@@ -46,10 +46,11 @@ class Once {
     static constexpr int kOrder = N;
     static constexpr Use kUse = Use::one_channel;
 
-    /// Takes the rotations R, which it may change.
-    HWY_INLINE void take(Pack<T>* R, RotationForm form) {
-        sign_.take_from(R, form);
-        for (int i = 0; i < 9; ++i) R_[i] = R[i];
+    /// Takes the rotations that load(R) writes.
+    template <class Load>
+    HWY_INLINE void take(RotationForm form, const Load& load) {
+        load(R_);
+        sign_.take_from(R_, form);
     }
     HWY_INLINE void operator()(Pack<T>* f) const {
         sign_.negate_odd_bands(f);
@@ -72,7 +73,10 @@ class Prepared {
     static constexpr int kOrder = N;
     static constexpr Use kUse = kWhat;
 
-    HWY_INLINE void take(Pack<T>* R, RotationForm form) {
+    template <class Load>
+    HWY_INLINE void take(RotationForm form, const Load& load) {
+        Pack<T> R[9];
+        load(R);
         sign_.take_from(R, form);
         if constexpr (N <= kLargestInlined && kUse != Use::all_vectors)
             PackKernels<N>::prepare(R, scalars_);
@@ -87,18 +91,19 @@ class Prepared {
             apply_called<T, N>(scalars_, f);
     }
 
-    /// Takes for every lane the rotation of one lane of others; `scalars` are theirs, see store_scalars.
+    /// Takes for every lane the rotation of one lane of others.
     template <Use kOthers>
-    HWY_INLINE void broadcast(const Prepared<T, N, kOthers>& others, const T* scalars, std::size_t lane) {
+    HWY_INLINE void broadcast(const Prepared<T, N, kOthers>& others, std::size_t lane) {
         sign_.broadcast(others.sign(), lane);
-        for (int i = 0; i < kScalars; ++i)
-            scalars_[i].lanes = hn::Set(Tag<T>(), scalars[i * kLanes<T> + lane]);
-    }
-    /// Writes kScalars packs, aligned.
-    HWY_INLINE void store_scalars(T* scalars) const {
-        for (int i = 0; i < kScalars; ++i) hn::Store(scalars_[i].lanes, Tag<T>(), scalars + i * kLanes<T>);
+        for (int i = 0; i < kScalars; ++i) {
+            T value;
+            hwy::CopyBytes<sizeof(T)>(reinterpret_cast<const char*>(others.scalars() + i) + lane * sizeof(T),
+                                      &value);
+            scalars_[i].lanes = hn::Set(Tag<T>(), value);
+        }
     }
     const auto& sign() const { return sign_; }
+    const Pack<T>* scalars() const { return scalars_; }
 
     static constexpr int kScalars = PackKernels<N>::kScalars;
 
@@ -119,8 +124,10 @@ HWY_NOINLINE ZONAL_FLATTEN void turn_called(const Turn& turn, Pack<T>* f) {
     turn(f);
 }
 template <class Turn, class T>
-HWY_NOINLINE ZONAL_FLATTEN void take_called(Turn& turn, Pack<T>* R, RotationForm form) {
-    turn.take(R, form);
+HWY_NOINLINE ZONAL_FLATTEN void take_called(Turn& turn, const Pack<T>* R, RotationForm form) {
+    turn.take(form, [R](Pack<T>* to) {
+        for (int i = 0; i < 9; ++i) to[i] = R[i];
+    });
 }
 
 /// As turn_called, for coefficients in the order and scale of a convention.
