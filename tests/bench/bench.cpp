@@ -77,17 +77,45 @@ struct Contestant {
     double error = 0;
 };
 
-/// How vectors are turned in the workloads of the table.
+/// How vectors are turned: "single" calls, a rotation "each" (or as "quaternions") or one for "all", with a
+/// number of interleaved channels ("all-16"), "planar" vectors, or "few" of them beside as many single calls.
 struct Workload {
     std::string name;
     std::size_t channels = 1;
     std::size_t rotation_length = 9;  ///< values of a rotation; 0: all vectors share one
+    bool is_planar = false;
+    std::size_t few = 0;  ///< vectors, where they are few
 
     bool is_single() const { return name == "single"; }
 };
 
-const std::vector<Workload> kWorkloads{{"single", 1, 9}, {"each", 1, 9},     {"quaternions", 1, 4},
-                                       {"all", 1, 0},    {"each-rgb", 3, 9}, {"all-rgb", 3, 0}};
+Workload workload_of(const std::string& name) {
+    const std::size_t dash = name.find('-');
+    const std::string rotations = name.substr(0, dash);
+    const std::string rest = dash == std::string::npos ? "" : name.substr(dash + 1);
+    Workload workload{.name = name,
+                      .rotation_length = rotations == "all"           ? 0U
+                                         : rotations == "quaternions" ? 4U
+                                                                      : 9U};
+    const bool is_number = !rest.empty() && rest.find_first_not_of("0123456789") == std::string::npos;
+    if (rest == "rgb")
+        workload.channels = 3;
+    else if (rest == "planar")
+        workload.is_planar = true;
+    else if (is_number && rotations == "few")
+        workload.few = std::stoul(rest);
+    else if (is_number)
+        workload.channels = std::stoul(rest);
+    const bool is_known = rotations == "single" || rotations == "each" || rotations == "quaternions" ||
+                          rotations == "all" || workload.few > 0;
+    if (!is_known || workload.channels == 0 ||
+        (!rest.empty() && rest != "rgb" && rest != "planar" && !is_number))
+        throw std::runtime_error(fmt::format(
+            "--workloads: found {}, wanted single, each, quaternions or all, the last three also with -rgb, "
+            "-planar or a number of channels (all-16); or few-3, three vectors beside as many single calls",
+            name));
+    return workload;
+}
 
 template <class T>
 const char* type_name() {
@@ -110,7 +138,8 @@ template <class T>
 Data<T> lay_out(std::vector<double>& memory, std::size_t bytes, int order, const Workload& workload) {
     const std::size_t length = workload.channels * order * order;
     // Whole packs; and half of all bytes are whole values, else the copy would make denormal numbers.
-    const std::size_t count = bytes / sizeof(T) / (2 * length + workload.rotation_length) / 16 * 16;
+    const std::size_t fitting = bytes / sizeof(T) / (2 * length + workload.rotation_length);
+    const std::size_t count = workload.few > 0 ? workload.few : fitting < 16 ? fitting : fitting / 16 * 16;
     const std::size_t shared = workload.rotation_length == 0 ? 9 : 0;
     memory.resize(std::max(memory.size(), bytes / sizeof(double) + 64));
     const std::span<T> values(reinterpret_cast<T*>(memory.data()),
@@ -144,15 +173,31 @@ Data<T> lay_out(std::vector<double>& memory, std::size_t bytes, int order, const
 
 template <class T>
 void rotate_batch(int order, const Workload& workload, const Data<T>& data) {
-    const BatchLayout layout{.count = data.count, .channels = static_cast<int>(workload.channels)};
     const std::span<const T> in(data.in), rotations(data.rotations);
-    if (workload.rotation_length == 9)
-        rotate_each(order, RotationMatrices<T>(rotations), layout, in, data.out);
-    else if (workload.rotation_length == 4)
-        rotate_each(order, RotationQuaternions<T>(rotations), layout, in, data.out);
+    const auto rotate_in = [&](const auto& layout, const auto& from, const auto& to) {
+        if (workload.rotation_length == 9)
+            rotate_each(order, RotationMatrices<T>(rotations), layout, from, to);
+        else if (workload.rotation_length == 4)
+            rotate_each(order, RotationQuaternions<T>(rotations), layout, from, to);
+        else
+            rotate_all(order, *reinterpret_cast<const RotationMatrix<T>*>(rotations.data()), layout, from,
+                       to);
+    };
+    if (workload.is_planar)
+        rotate_in(PlanarLayout{.count = data.count}, Planes<const T>(in, data.count),
+                  Planes<T>(data.out, data.count));
     else
-        rotate_all(order, *reinterpret_cast<const RotationMatrix<T>*>(rotations.data()), layout, in,
-                   data.out);
+        rotate_in(BatchLayout{.count = data.count, .channels = static_cast<int>(workload.channels)}, in,
+                  data.out);
+}
+
+/// The same by single calls, of vectors with one channel and a rotation each.
+template <class T>
+void rotate_singly(int order, const Data<T>& data) {
+    const std::size_t length = static_cast<std::size_t>(order) * order;
+    for (std::size_t k = 0; k < data.count; ++k)
+        rotate(order, RotationMatrix<T>::from_row_major(data.rotations.data() + 9 * k),
+               std::span<const T>(data.in).subspan(k * length, length), data.out.subspan(k * length, length));
 }
 
 /// Largest error of rotate(R, f, out) over random rotations, against the pointwise oracle.
@@ -203,8 +248,9 @@ int instructions_of(const Workload& workload, bool is_fused, bool has_blocks) {
     const int prepare = counted([&] { Kernels::prepare(R, scalars); });
     const int apply = counted([&] { Kernels::apply(scalars, f); });
     if (workload.rotation_length > 0 && workload.channels == 1) return once;
-    if (workload.name == "all-rgb" && has_blocks && turns_channels_densely(N))
-        return (N * (4 * N * N - 1) / 3 - 1) * 3 * (is_fused ? 1 : 2);
+    const bool is_dense = workload.rotation_length == 0 && workload.channels > 1 && workload.channels < 64;
+    if (is_dense && has_blocks && turns_channels_densely(N))
+        return (N * (4 * N * N - 1) / 3 - 1) * static_cast<int>(workload.channels) * (is_fused ? 1 : 2);
     return static_cast<int>(workload.channels) * apply + (workload.rotation_length > 0 ? prepare : 0);
 }
 
@@ -280,6 +326,8 @@ std::vector<Contestant> contestants_of(int order, const Workload& workload, cons
                                    static_cast<double>(peak.lanes),
                                batch_error<T>(order, workload)});
         if (workload.name == "all") add(dense_product<T>(order));
+        if (workload.few > 0)
+            contestants.push_back({"single calls", [=] { rotate_singly(order, data); }, vectors});
     }
     // The copy goes from the first half of all bytes to the second.
     const std::size_t length = workload.channels * order * order;
@@ -396,9 +444,10 @@ void run(const Options& options) {
     const auto wanted = [](const std::vector<std::string>& list, const std::string& name) {
         return std::ranges::find(list, name) != list.end();
     };
-    for (const Workload& workload : kWorkloads) {
-        if (!wanted(options.workloads, workload.name)) continue;
+    for (const std::string& name : options.workloads) {
+        const Workload workload = workload_of(name);
         for (const std::string& place : options.places) {
+            if (workload.few > 0 && place == "memory") continue;
             for (const int order : compiled_orders()) {
                 if (std::ranges::find(options.orders, order) == options.orders.end()) continue;
                 if (wanted(options.types, "float"))
@@ -423,7 +472,11 @@ int main(int argc, char** argv) {
     zonal::program::add_numbers(app, "--orders", options.orders, zonal::program::at_least(1),
                                 "orders to time")
         ->delimiter(',');
-    app.add_option("--workloads", options.workloads)->delimiter(',')->capture_default_str();
+    app.add_option(
+           "--workloads", options.workloads,
+           "single, each, quaternions, all; the last three with -rgb, -planar or channels: all-16; few-3")
+        ->delimiter(',')
+        ->capture_default_str();
     app.add_option("--places", options.places, "L2, memory")->delimiter(',')->capture_default_str();
     app.add_option("--types", options.types, "float, double")->delimiter(',')->capture_default_str();
     app.add_option("--target", options.target, "instruction set of the packs, default the best");

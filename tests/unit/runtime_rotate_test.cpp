@@ -12,6 +12,7 @@
 
 #include "support/banner.hpp"
 #include "support/oracle.hpp"
+#include "zonal/conventions.hpp"
 #include "zonal/eigen.hpp"
 #include "zonal/error.hpp"
 #include "zonal/rotate.hpp"
@@ -235,6 +236,36 @@ TEST(runtime_rotate_door, span_of_wrong_length_is_named_with_both_lengths) {
     const std::string out_message =
         message_of([&] { zonal::rotate(order, RotationMatrix<double>(), right, wrong); });
     EXPECT_NE(out_message.find("length of out" + tail), std::string::npos) << out_message;
+}
+
+TYPED_TEST(runtime_rotate, three_interleaved_channels_of_values_turn_like_colours) {
+    using T = TypeParam;
+    const RotationMatrix<T> rotation(asymmetric_rotation());
+    for (const int order : zonal::compiled_orders()) {
+        const std::vector<T> in = asymmetric_signal<T>(2 * order);  // more than enough
+        std::vector<Rgb<T>> colours(length(order)), wanted(colours.size());
+        for (std::size_t i = 0; i < colours.size(); ++i)
+            colours[i] = {in[3 * i], in[3 * i + 1], in[3 * i + 2]};
+        zonal::rotate(order, rotation, colours, wanted);
+        const std::span<const T> values = std::span(in).first(3 * length(order));
+        std::vector<T> out(values.size());
+        zonal::rotate(order, rotation, values, out);
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            EXPECT_EQ((Rgb<T>(out[3 * i], out[3 * i + 1], out[3 * i + 2])), wanted[i]) << "coefficient " << i;
+        zonal::rotate(zonal::Convention::kGoogle, order, rotation, std::span<const Rgb<T>>(colours),
+                      std::span(wanted));
+        zonal::rotate(zonal::Convention::kGoogle, order, rotation, values, std::span(out));
+        for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(out[3 * i], wanted[i].r);
+    }
+}
+
+TEST(runtime_rotate_door, several_channels_or_vectors_are_told_what_takes_them) {
+    const int order = smallest_order();
+    const std::vector<float> in(5 * length(order));
+    std::vector<float> out(in.size());
+    const std::string message = message_of([&] { zonal::rotate(order, RotationMatrix<float>(), in, out); });
+    EXPECT_NE(message.find("zonal::Rgb"), std::string::npos) << message;
+    EXPECT_NE(message.find("zonal/batch.hpp"), std::string::npos) << message;
 }
 
 TEST(runtime_rotate_door, partial_overlap_is_refused_and_leaves_the_values) {
