@@ -154,8 +154,8 @@ ZONAL_API void rotate_each(int order, const RotationQuaternions<double>& rotatio
                            std::span<const double> in, std::span<double> out, const Executor& executor = {});
 
 /// Rotates every vector of a batch by one rotation; what depends on the rotation only is computed once.
-/// All else as in `rotate_each`; a NaN or infinity in the rotation spoils every vector. Three interleaved
-/// channels of float are as accurate as `blocks` in orders 3 to 6 where there is SSE4 or NEON.
+/// All else as in `rotate_each`; a NaN or infinity in the rotation spoils every vector. Interleaved channels
+/// of float, 2 to 63, are as accurate as `blocks` in orders 3 to 6 where there is SSE4 or NEON.
 ZONAL_API void rotate_all(int order, const RotationMatrix<float>& rotation, const BatchLayout& layout,
                           std::span<const float> in, std::span<float> out, const Executor& executor = {});
 ZONAL_API void rotate_all(int order, const RotationMatrix<double>& rotation, const BatchLayout& layout,

@@ -28,11 +28,6 @@ void turn_densely(const Job<T>&);
 template <class T>
 inline constexpr bool kHasBlocksOfFour = sizeof(T) == 4;
 
-/// Distances between vectors, and the number of their channels: copies, for what is written could be a Job's.
-struct Distances {
-    std::size_t in, out, channels;
-};
-
 /// The dense matrices of order N >= 3, spread over registers. kFirst: 1 where band 0 is apart, else 0.
 /// kChannels: 2 or 3 channels that vectors have, whose values are packed in registers before they are
 /// written; or 4 of any number that is known at run time only.
@@ -61,40 +56,41 @@ class DenseChannels {
 
     /// Turns kCount vectors from `in` to `out`, which may be the same.
     template <std::size_t kCount>
-    HWY_INLINE void turn(const Distances d, const T* in, T* out) const {
+    HWY_INLINE void turn(const Job<T>& job, const T* in, T* out) const {
         if constexpr (kIsPacked) {
-            turn_four<kCount>(d, in, out);
+            turn_four<kCount>(job, in, out);
         } else {
             // What is left over by fours overlaps another four: it is read first and written last.
-            const std::size_t last = d.channels - 4;
+            const std::size_t last = job.channels - 4;
             Lanes<T> kept[kCount][kRegisters];
-            if (last % 4 != 0) multiply<kFirst>(in + last, d, kept);
+            if (last % 4 != 0) multiply<kFirst>(in + last, job, kept);
             for (std::size_t channel = 0; channel <= last; channel += 4)
-                turn_four<kCount>(d, in + channel, out + channel);
-            if (last % 4 != 0) store_all<kCount>(kept, d, out + last);
+                turn_four<kCount>(job, in + channel, out + channel);
+            if (last % 4 != 0) store_all<kCount>(kept, job, out + last);
         }
     }
 
-    /// Turns `count` vectors, some lines of `output` leaving between them. Called, so that the matrices are
-    /// read where they are: the compiler would copy what it knows not to change.
+    /// Turns `count` vectors, some lines of `output` leaving between them. Distances are read from the job: a
+    /// compiler that knows them not to change keeps an address for every coefficient, in memory, and is
+    /// slower.
     template <std::size_t kPace, class Writer>
-    HWY_NOINLINE void turn_some(const Distances d, const T* in, T* out, std::size_t count,
-                                const Writer& output) const {
+    HWY_INLINE void turn_some(const Job<T>& job, const T* in, T* out, std::size_t count,
+                              const Writer& output) const {
         std::size_t k = 0;
         for (; k + kTogether <= count; k += kTogether) {
             output.template write_some<kPace>();
-            turn<kTogether>(d, in, out);
-            in += kTogether * d.in;
-            out += kTogether * d.out;
+            turn<kTogether>(job, in, out);
+            in += kTogether * job.in_stride;
+            out += kTogether * job.out_stride;
         }
-        for (; k < count; ++k, in += d.in, out += d.out) turn<1>(d, in, out);
+        for (; k < count; ++k, in += job.in_stride, out += job.out_stride) turn<1>(job, in, out);
     }
-    /// The same, called: the matrices of order 3 can stay in registers, larger ones are better read where
-    /// they are than copied to the stack, as a compiler does with what it knows not to change.
+    /// The same, called: packed matrices from order 4 on are better read where they are than copied to the
+    /// stack, as a compiler does with what it knows not to change.
     template <std::size_t kPace, class Writer>
-    HWY_NOINLINE void turn_some_called(const Distances d, const T* in, T* out, std::size_t count,
+    HWY_NOINLINE void turn_some_called(const Job<T>& job, const T* in, T* out, std::size_t count,
                                        const Writer& output) const {
-        turn_some<kPace>(d, in, out, count, output);
+        turn_some<kPace>(job, in, out, count, output);
     }
 
   private:
@@ -129,19 +125,19 @@ class DenseChannels {
     static constexpr std::size_t coefficient(std::size_t l, std::size_t row) { return l * l + row - kFirst; }
 
     template <std::size_t kCount>
-    HWY_INLINE void turn_four(const Distances d, const T* in, T* out) const {
+    HWY_INLINE void turn_four(const Job<T>& job, const T* in, T* out) const {
         Lanes<T> sums[kCount][kRegisters];
-        multiply<kFirst>(in, d, sums);
-        store_all<kCount>(sums, d, out);
+        multiply<kFirst>(in, job, sums);
+        store_all<kCount>(sums, job, out);
     }
 
     template <std::size_t kCount>
-    HWY_INLINE void store_all(const Lanes<T> (&sums)[kCount][kRegisters], const Distances d, T* out) const {
+    HWY_INLINE void store_all(const Lanes<T> (&sums)[kCount][kRegisters], const Job<T>& job, T* out) const {
         for (std::size_t k = 0; k < kCount; ++k) {
             if constexpr (kIsPacked)
-                store_packed<kFirst, 0>(sums[k], out + k * d.out);
+                store_packed<kFirst, 0>(sums[k], out + k * job.out_stride);
             else
-                store_blocks<kFirst, 0>(sums[k], d.channels, out + k * d.out);
+                store_blocks<kFirst, 0>(sums[k], job.channels, out + k * job.out_stride);
         }
     }
 
@@ -176,21 +172,22 @@ class DenseChannels {
     }
 
     template <std::size_t l, std::size_t kCount>
-    HWY_INLINE void multiply(const T* in, const Distances d, Lanes<T> (&sums)[kCount][kRegisters]) const {
+    HWY_INLINE void multiply(const T* in, const Job<T>& job, Lanes<T> (&sums)[kCount][kRegisters]) const {
         if constexpr (l == 0) {
-            for (std::size_t k = 0; k < kCount; ++k) sums[k][0] = load<0>(in + k * d.in, d.channels);
+            for (std::size_t k = 0; k < kCount; ++k)
+                sums[k][0] = load<0>(in + k * job.in_stride, job.channels);
         } else {
-            multiply_column<l, 0>(in, d, sums);
+            multiply_column<l, 0>(in, job, sums);
         }
-        if constexpr (l + 1 < N) multiply<l + 1>(in, d, sums);
+        if constexpr (l + 1 < N) multiply<l + 1>(in, job, sums);
     }
 
     template <std::size_t l, std::size_t kColumn, std::size_t kCount>
-    HWY_INLINE void multiply_column(const T* in, const Distances d,
+    HWY_INLINE void multiply_column(const T* in, const Job<T>& job,
                                     Lanes<T> (&sums)[kCount][kRegisters]) const {
         Lanes<T> x[kCount];
         for (std::size_t k = 0; k < kCount; ++k)
-            x[k] = load<coefficient(l, kColumn)>(in + k * d.in, d.channels);
+            x[k] = load<coefficient(l, kColumn)>(in + k * job.in_stride, job.channels);
         for (std::size_t index = 0; index < registers(l); ++index) {
             const Lanes<T> entries =
                 hn::Load(Tag<T>(), columns_[columns_below(l) + kColumn * registers(l) + index]);
@@ -199,7 +196,7 @@ class DenseChannels {
                 sum = kColumn == 0 ? hn::Mul(x[k], entries) : hn::MulAdd(x[k], entries, sum);
             }
         }
-        if constexpr (kColumn + 1 < size(l)) multiply_column<l, kColumn + 1>(in, d, sums);
+        if constexpr (kColumn + 1 < size(l)) multiply_column<l, kColumn + 1>(in, job, sums);
     }
 
     /// Writes registers from `kIndex` of band l on. A whole register goes beyond what it keeps, into what is
@@ -255,12 +252,11 @@ HWY_NOINLINE void turn_densely(const Job<T>& job) {
     constexpr std::size_t kPace = (kTogether * kLength + kLine - 1) / kLine * kLine;
 
     const Dense dense(job.rotations);
-    const Distances d{job.in_stride, job.out_stride, job.channels};
     const auto turn = [&](const T* in, T* out, std::size_t count, const Writer& output) {
-        if constexpr (N == 3)
-            dense.template turn_some<kPace>(d, in, out, count, output);
+        if constexpr (N == 3 || kChannels == 4)
+            dense.template turn_some<kPace>(job, in, out, count, output);
         else
-            dense.template turn_some_called<kPace>(d, in, out, count, output);
+            dense.template turn_some_called<kPace>(job, in, out, count, output);
     };
     if (!job.is_streamed || job.channels > kChannels)
         return turn(job.in, job.out, job.count, Writer(job.out));
@@ -268,8 +264,8 @@ HWY_NOINLINE void turn_densely(const Job<T>& job) {
     Writer output(job.out, &stream);
     for (std::size_t k = 0; k < job.count; k += kStep) {
         const std::size_t live = job.count - k < kStep ? job.count - k : kStep;
-        turn(job.in + k * d.in, output.room(), live, output);
-        output.advance(live * d.out);
+        turn(job.in + k * job.in_stride, output.room(), live, output);
+        output.advance(live * job.out_stride);
     }
     output.finish();
 }

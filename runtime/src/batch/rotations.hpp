@@ -112,7 +112,7 @@ class Sign {
     }
 
   private:
-    Pack<T> sign_;
+    Pack<T> sign_ = Pack<T>(1);
     bool has_mirror_ = false;
 };
 
