@@ -45,6 +45,20 @@ void rotate_a_batch() {
     expect("batch", out[2 * 16 + kY], 1);
 }
 
+void rotate_a_block_of_frames() {
+    const auto& R = x_to_y;
+    const zonal::PlanarLayout layout = {.count = 512};
+    std::vector<float> buffers(16 * 512);
+    std::vector<float*> pointers;
+    for (int i = 0; i < 16; ++i) pointers.push_back(buffers.data() + 512 * i);
+    const std::vector<const float*> read_pointers(pointers.begin(), pointers.end());
+    const zonal::Planes<const float> planes_in(read_pointers);
+    const zonal::Planes<float> planes_out(std::span(pointers.data(), 16));
+    buffers[512 * kX + 100] = 1;
+    zonal::rotate_all(4, R, layout, planes_in, planes_out);
+    expect("frames", buffers[512 * kY + 100], 1);
+}
+
 void rotate_a_scene_of_splats() {
     // 90 degrees about y, z becomes x; coefficients of the green channel from index 15 on: y, z, x of signs
     // -, +, -.
@@ -107,6 +121,7 @@ void project_a_map(const std::filesystem::path& map) {
 int main(int, char** arguments) {
     rotate_a_probe();
     rotate_a_batch();
+    rotate_a_block_of_frames();
     rotate_a_scene_of_splats();
     rotate_a_sound_field();
     rotate_in_another_convention();
