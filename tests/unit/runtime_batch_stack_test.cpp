@@ -27,6 +27,13 @@ constexpr bool kIsSanitized = false;
 constexpr bool kIsSanitized = false;
 #endif
 
+/// The door keeps its values on the stack where it is compiled to be debugged; kernels are optimised always.
+#ifdef NDEBUG
+constexpr std::size_t kOfDebugging = 0;
+#else
+constexpr std::size_t kOfDebugging = 4096;
+#endif
+
 /// Runs `body` on a thread; returns the bytes of its stack that were written.
 std::size_t stack_used_by(const std::function<void()>& body) {
     constexpr std::size_t kWords = (std::size_t{1} << 20) / sizeof(std::uint64_t);
@@ -80,7 +87,7 @@ void expect_little_stack() {
                     zonal::rotate_all(order, R, planar, from, to);
                     zonal::rotate_each(order, zonal::RotationMatrices<T>(each), planar, from, to);
                 });
-                EXPECT_LE(used, by_itself + 65536)
+                EXPECT_LE(used, by_itself + 65536 + kOfDebugging)
                     << target << ", order " << order << ", channels " << channels;
             }
         }

@@ -140,7 +140,8 @@ using Executor = std::function<void(std::size_t count,
 ///             from one processor to another, but not with the place of a vector in the batch. fuma and
 ///             unity_l2 add two multiplications a value.
 /// executor  : none: the calling thread does all.
-/// Cost      : no allocation, at most 64 KiB of stack up to order 10; SIMD packs of 4 to 16 values chosen for
+/// Cost      : no allocation, at most 64 KiB of stack up to order 10 (optimised); SIMD packs of 4 to 16
+/// values chosen for
 ///             the processor at run time. A lane is a vector; interleaved channels from 8 or 16 on are lanes
 ///             themselves. Batches of more than 32 MiB without gaps, not in place and not planar, are written
 ///             past the caches.
