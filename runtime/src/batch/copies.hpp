@@ -16,7 +16,7 @@ HWY_INLINE void gather(const At& at, std::size_t stride, std::size_t count, std:
     HWY_ALIGN T lanes[kLanes<T>];
     for (std::size_t i = 0; i < count; ++i) {
         const T* const values = at(i);
-        const T dead = static_cast<T>(ones >> i & 1);
+        const T dead = static_cast<T>(i < 9 ? ones >> i & 1 : 0);  // a rotation has nine at most
         if (live == 1) {
             packs[i].lanes = hn::Set(Tag<T>(), values[0]);
             continue;

@@ -67,15 +67,14 @@ void turn_few(int order, const Job<T>& job, bool is_one_for_all) {
     RotationMatrix<T> rotation;
     for (std::size_t k = 0; k < job.count; ++k) {
         if (k == 0 || !is_one_for_all) rotation = rotation_of(job, job.rotations + k * job.rotation_stride);
-        const T* const in = job.in + k * job.in_stride;
-        T* const out = job.out + k * job.out_stride;
+        const std::size_t in_begin = k * job.in_stride, out_begin = k * job.out_stride;  // not of planes
         if (is_plain && job.shape == Shape::rows) {
             const std::size_t length = static_cast<std::size_t>(order) * order;
             for (std::size_t begin = 0; begin < length * job.channels; begin += length)
-                rotate_unchecked(order, rotation, in + begin, out + begin);
+                rotate_unchecked(order, rotation, job.in + in_begin + begin, job.out + out_begin + begin);
         } else if (is_plain && is_colours) {
-            rotate_unchecked(order, rotation, reinterpret_cast<const Rgb<T>*>(in),
-                             reinterpret_cast<Rgb<T>*>(out));
+            rotate_unchecked(order, rotation, reinterpret_cast<const Rgb<T>*>(job.in + in_begin),
+                             reinterpret_cast<Rgb<T>*>(job.out + out_begin));
         } else {
             for (std::size_t channel = 0; channel < job.channels; ++channel)
                 turn_copy(order, job, rotation, channel, k);
